@@ -57,7 +57,7 @@ bool must_escape(vtkAbstractArray* array)
 
 Status check_names(vtkAbstractArray* array)
 {
-  const std::string error = text_error(name_of(array));
+  const std::string error = find_text_error(name_of(array));
   if (!error.empty())
   {
     return Status::invalid_input(
@@ -65,7 +65,7 @@ Status check_names(vtkAbstractArray* array)
   }
   for (int c = 0; array->HasAComponentName() && c < array->GetNumberOfComponents(); ++c)
   {
-    const std::string component_error = text_error(component_name(array, c));
+    const std::string component_error = find_text_error(component_name(array, c));
     if (!component_error.empty())
     {
       return Status::invalid_input("the name of component " + std::to_string(c) + " of array '" +

@@ -73,7 +73,7 @@ Status read(const std::string& path, int result)
   vtkDataObject* object = reader->GetOutputDataObject(0);
   if (errors.any() || reader->GetErrorCode() != vtkErrorCode::NoError || !object)
   {
-    return Status::invalid_input(errors.any() ? errors.sentence() : "the file is not valid");
+    return Status::invalid_input(errors.any() ? errors.message() : "the file is not valid");
   }
   auto* data = vtkDataSet::SafeDownCast(object);
   return data ? bindpose::write_dataset_record(result, data)

@@ -38,7 +38,7 @@ public:
   bool any() const { return !this->first_.empty(); }
 
   /// Return the text after "vtkClass (0x…): " in VTK's message, in one line.
-  std::string sentence() const
+  std::string message() const
   {
     std::string text = this->first_;
     const std::size_t object = text.find("): ");

@@ -158,7 +158,7 @@ protected:
 };
 } // namespace
 
-TEST_F(GLTFSkin, AllKindsOfHandlesComeBackEqual)
+TEST_F(GLTFSkin, AllKindsOfHandlesAreReadBack)
 {
   for (const char* name : { "rig.glb", "rig.gltf" })
   {

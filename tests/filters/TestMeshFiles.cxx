@@ -94,7 +94,7 @@ void add_weights(vtkDataSet* data)
 }
 } // namespace
 
-TEST_F(MeshFiles, SurfacesComeBackInEveryFormat)
+TEST_F(MeshFiles, SurfacesAreReadBackInEveryFormat)
 {
   const auto surface = cube_data();
   for (const std::string extension : { "off", "obj", "ply", "stl", "vtp", "vtk", "mesh", "OFF" })
@@ -131,7 +131,7 @@ TEST_F(MeshFiles, PolygonsStayPolygons)
   }
 }
 
-TEST_F(MeshFiles, TetsComeBackInEveryFormat)
+TEST_F(MeshFiles, TetsAreReadBackInEveryFormat)
 {
   const auto tets = tet_data();
   add_weights(tets);

@@ -52,7 +52,7 @@ std::string byte_at(std::string_view text, std::size_t at)
 }
 } // namespace
 
-std::string text_error(std::string_view text)
+std::string find_text_error(std::string_view text)
 {
   for (std::size_t at = 0; at < text.size();)
   {

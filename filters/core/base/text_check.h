@@ -12,7 +12,7 @@ namespace bindpose
 /// control character U+000A at position 3" or "bytes that are not UTF-8 (0xff at position 0)".
 /// Surrogates, overlong encodings, code points above U+10FFFF, and U+FFFE and U+FFFF, which XML
 /// cannot store, are not valid.
-std::string text_error(std::string_view text);
+std::string find_text_error(std::string_view text);
 
 } // namespace bindpose
 

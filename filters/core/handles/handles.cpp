@@ -135,7 +135,7 @@ Status check_handles(const Handles& handles)
     {
       return Status::invalid_input("every handle must have a name");
     }
-    const std::string error = text_error(handle.name);
+    const std::string error = find_text_error(handle.name);
     if (!error.empty())
     {
       return Status::invalid_input("the name of handle " + std::to_string(names.size()) +

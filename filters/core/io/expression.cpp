@@ -150,7 +150,7 @@ Status ExpressionParser::evaluate(const std::string& text, double t, double& val
   std::string line = text; // muParser accepts only spaces as white space
   std::replace_if(
     line.begin(), line.end(), [](unsigned char c) { return std::isspace(c) != 0; }, ' ');
-  const std::string error = text_error(line);
+  const std::string error = find_text_error(line);
   if (!error.empty())
   {
     return Status::invalid_input("the expression contains " + error);

@@ -45,7 +45,7 @@ Status read_node(TextScanner& scanner, std::string_view first, Ids& ids, Tgf& gr
     node.position[k] = value;
   }
   node.text = std::string(scanner.rest_of_line());
-  const std::string error = text_error(node.text);
+  const std::string error = find_text_error(node.text);
   if (!error.empty())
   {
     return scanner.error("the name of node " + std::to_string(id) + " contains " + error +

@@ -40,7 +40,7 @@ TEST(TextCheck, AllCodePointsExceptSurrogatesAndControlsAreValid)
     const bool is_control = code < 0x20 || (code >= 0x7f && code < 0xa0);
     const bool is_surrogate = code >= 0xd800 && code < 0xe000;
     const bool is_no_character = code == 0xfffe || code == 0xffff;
-    ASSERT_EQ(text_error("a" + encoded(code) + "b").empty(),
+    ASSERT_EQ(find_text_error("a" + encoded(code) + "b").empty(),
       !is_control && !is_surrogate && !is_no_character)
       << std::hex << code;
   }
@@ -48,14 +48,14 @@ TEST(TextCheck, AllCodePointsExceptSurrogatesAndControlsAreValid)
 
 TEST(TextCheck, NamesTheFirstInvalidByteAndItsPosition)
 {
-  EXPECT_EQ(text_error(""), "");
-  EXPECT_EQ(text_error("left_arm & <\"é\">"), "");
-  EXPECT_EQ(text_error("ab\xff"), "bytes that are not UTF-8 (0xff at position 2)");
-  EXPECT_EQ(text_error("é\n"), "the control character U+000A at position 2");
-  EXPECT_EQ(text_error(std::string("a\0b", 3)), "the control character U+0000 at position 1");
+  EXPECT_EQ(find_text_error(""), "");
+  EXPECT_EQ(find_text_error("left_arm & <\"é\">"), "");
+  EXPECT_EQ(find_text_error("ab\xff"), "bytes that are not UTF-8 (0xff at position 2)");
+  EXPECT_EQ(find_text_error("é\n"), "the control character U+000A at position 2");
+  EXPECT_EQ(find_text_error(std::string("a\0b", 3)), "the control character U+0000 at position 1");
   for (const char* bytes : { "\x80", "\xc3", "\xc3(", "\xe2\x82", "\xf0\x9f\x98", "\xc0\xaf",
          "\xe0\x80\xaf", "\xf0\x80\x80\xaf", "\xf4\x90\x80\x80", "\xf8\x88\x80\x80\x80" })
   {
-    EXPECT_THAT(text_error(bytes), HasSubstr("not UTF-8")) << bytes;
+    EXPECT_THAT(find_text_error(bytes), HasSubstr("not UTF-8")) << bytes;
   }
 }

@@ -64,7 +64,7 @@ TEST_F(TgfFiles, ErrorsNameTheLine)
   EXPECT_TRUE(this->graph.nodes.empty());
 }
 
-TEST(TgfTexts, ComeBackWithoutAFile)
+TEST(TgfTexts, AreReadBackWithoutAFile)
 {
   Tgf graph;
   const std::string text = "1 0 0.1 -1e-300 left hand\n2 1 0 0\n3 1 1 0\n4 0 1 0\n#\n"

@@ -88,7 +88,7 @@ TEST(RotationFit, HundredThousandRandomMatricesAreAsGoodAsTheirSvd)
   }
 }
 
-TEST(RotationFit, StretchedRotationsComeBackAsTheyWere)
+TEST(RotationFit, StretchedRotationsGiveTheRotation)
 {
   test::Random random(5);
   for (int i = 0; i < 10000; ++i)

@@ -48,7 +48,7 @@ TEST(TransformParts, ARotationVectorIsTheAxisTimesTheAngle)
   }
 }
 
-TEST(TransformParts, ComeBackTogether)
+TEST(TransformParts, AreComposedToTheTransform)
 {
   test::Random random(5);
   for (int k = 0; k < 200; ++k)

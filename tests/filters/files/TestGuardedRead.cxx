@@ -218,7 +218,7 @@ private:
 };
 } // namespace
 
-TEST(DatasetRecord, DatasetsOfAllClassesComeBack)
+TEST(DatasetRecord, DatasetsOfAllClassesAreReadBack)
 {
   for (const auto& data : datasets())
   {
@@ -410,7 +410,7 @@ TEST(FileStamp, DetectsChangedFiles)
   EXPECT_FALSE(FileStamp(path).has_content_of(FileStamp(path)));
 }
 
-TEST(GuardedRead, AHelperThatCrashesGivesOneSentence)
+TEST(GuardedRead, ACrashOfTheHelperIsAnError)
 {
   FakeReader reader("kill -SEGV $$\n");
   const Status status = reader.read();
@@ -420,7 +420,7 @@ TEST(GuardedRead, AHelperThatCrashesGivesOneSentence)
   EXPECT_EQ(status.message.find('\n'), std::string::npos);
 }
 
-TEST(GuardedRead, AHelperWithAnErrorOrAnInvalidRecordGivesOneSentence)
+TEST(GuardedRead, AnErrorOfTheHelperOrAnInvalidRecordIsAnError)
 {
   EXPECT_THAT(FakeReader("echo 'error the file is damaged' >&2\nexit 1\n").read().message,
     HasSubstr("the file is damaged"));
@@ -448,7 +448,7 @@ TEST(GuardedRead, AMissingHelperIsNamed)
   EXPECT_THAT(status.message, HasSubstr("/nowhere/bindpose-reader"));
 }
 
-TEST(GuardedRead, NamesWithAnyCharacterComeBack)
+TEST(GuardedRead, NamesWithAnyCharacterAreReadBack)
 {
   test::Random random(5);
   const std::string alphabet[] = { "a", "Z", "&", "<", ">", "\"", "'", " ", "é", "漢", "🦴", "%",

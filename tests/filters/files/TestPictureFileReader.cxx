@@ -86,7 +86,7 @@ protected:
 };
 } // namespace
 
-TEST_F(PictureFileReader, PixelsOfAllFormatsComeBack)
+TEST_F(PictureFileReader, PixelsOfAllFormatsAreReadBack)
 {
   const std::string paths[] = { write<vtkPNGWriter>(this->Folder / "a.png"),
     write<vtkBMPWriter>(this->Folder / "a.bmp"), write<vtkTIFFWriter>(this->Folder / "a.tif"),

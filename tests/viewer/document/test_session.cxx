@@ -105,7 +105,7 @@ Session session_with_file(const test::Folder& folder)
 }
 } // namespace
 
-TEST(Sessions, ComeBackToTheLastBit)
+TEST(Sessions, AreReadBackToTheLastBit)
 {
   const test::Folder folder;
   Session session;

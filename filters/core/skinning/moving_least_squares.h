@@ -2,7 +2,7 @@
 #define bindpose_skinning_moving_least_squares_h
 
 #include "base/execution.h"
-#include "base/points_output.h"
+#include "skinning/points_output.h"
 #include "handles/handles.h"
 #include "pose/pose.h"
 

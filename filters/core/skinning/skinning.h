@@ -5,7 +5,7 @@
 // stretchable, twistable bones.
 
 #include "base/execution.h"
-#include "base/points_output.h"
+#include "skinning/points_output.h"
 #include "handles/handles.h"
 #include "pose/bone_change.h"
 #include "pose/pose.h"

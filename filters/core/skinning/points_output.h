@@ -1,5 +1,5 @@
-#ifndef bindpose_base_points_output_h
-#define bindpose_base_points_output_h
+#ifndef bindpose_skinning_points_output_h
+#define bindpose_skinning_points_output_h
 
 #include "base/mesh_types.h"
 

@@ -6,7 +6,7 @@
 #include "automatic/spread_points.h"
 
 #include "base/constants.h"
-#include "base/number_text.h"
+#include "base/range_check.h"
 #include "surface/surface_probe.h"
 #include "surface/vertex_order.h"
 #include "winding/winding_number.h"
@@ -394,12 +394,11 @@ Status spread_points(ExecutionContext& context, PointsView points, TrianglesView
     return Status::invalid_input(
       "the number of points must be at least 1, not " + std::to_string(options.count));
   }
-  if (!(options.winding_threshold > 0.0) || !std::isfinite(options.winding_threshold))
+  Status status = check_positive("winding_threshold", options.winding_threshold);
+  if (status.ok())
   {
-    return Status::invalid_input(
-      "winding_threshold must be positive, not " + short_number(options.winding_threshold));
+    status = check_mesh(points, triangles);
   }
-  Status status = check_mesh(points, triangles);
   if (!status.ok())
   {
     return status;

@@ -28,6 +28,7 @@
 // threads.
 #include "embedding/embedding_tets.h"
 
+#include "base/range_check.h"
 #include "embedding/atom_connections.h"
 #include "embedding/embedding_atoms.h"
 #include "embedding/embedding_parts.h"
@@ -126,9 +127,10 @@ Status check(PointsView points, TrianglesView triangles, const EmbeddingOptions&
     return Status::invalid_input(
       "the target number of tets must be at least 1, not " + std::to_string(options.tets));
   }
-  if (!std::isfinite(options.winding_threshold) || options.winding_threshold <= 0.0)
+  const Status threshold = check_positive("winding_threshold", options.winding_threshold);
+  if (!threshold.ok())
   {
-    return Status::invalid_input("winding_threshold must be positive");
+    return threshold;
   }
   for (const PartLink& link : options.links)
   {

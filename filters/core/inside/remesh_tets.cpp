@@ -4,6 +4,7 @@
 #include "inside/remesh_tets.h"
 
 #include "base/number_text.h"
+#include "base/range_check.h"
 #include "helper/child_process.h"
 #include "helper/mesher_process.h"
 #include "tets/tet_improvement.h"
@@ -32,9 +33,10 @@ Status check_input(PointsView points, TrianglesView triangles, const RemeshOptio
       std::string(name) + " must be " + range + ", not " + short_number(value));
   };
   constexpr double minimum = 1e-4;
-  if (!(options.winding_threshold > 0.0) || !std::isfinite(options.winding_threshold))
+  const Status threshold = check_positive("winding_threshold", options.winding_threshold);
+  if (!threshold.ok())
   {
-    return out_of_range("winding_threshold", "positive", options.winding_threshold);
+    return threshold;
   }
   if (!(options.smallest_edge >= minimum && options.smallest_edge <= 1.0))
   {

@@ -9,6 +9,7 @@
 #include "inside/tetrahedralize.h"
 
 #include "base/number_text.h"
+#include "base/range_check.h"
 #include "base/side_task.h"
 #include "embedding/embedding_tets.h"
 #include "geometry/working_frame.h"
@@ -811,20 +812,14 @@ private:
 
 Status check_options(const TetrahedralizeOptions& options)
 {
-  if (!std::isfinite(options.winding_threshold) || options.winding_threshold <= 0.0)
+  for (const Status& status : { check_positive("winding_threshold", options.winding_threshold),
+         check_not_negative("cut_smoothness", options.cut_smoothness),
+         check_positive("cut_sigma", options.cut_sigma) })
   {
-    return Status::invalid_input(
-      "winding_threshold must be positive, not " + short_number(options.winding_threshold));
-  }
-  if (!(options.cut_smoothness >= 0.0) || !std::isfinite(options.cut_smoothness))
-  {
-    return Status::invalid_input(
-      "cut_smoothness must be 0 or more, not " + short_number(options.cut_smoothness));
-  }
-  if (!(options.cut_sigma > 0.0) || !std::isfinite(options.cut_sigma))
-  {
-    return Status::invalid_input(
-      "cut_sigma must be positive, not " + short_number(options.cut_sigma));
+    if (!status.ok())
+    {
+      return status;
+    }
   }
   if (options.resolution != 0 && (options.resolution < 4 || options.resolution > 1000))
   {

@@ -15,6 +15,7 @@
 
 #include "base/number_text.h"
 #include "base/parallel.h"
+#include "base/range_check.h"
 #include "helper/child_process.h"
 #include "helper/mesher_process.h"
 
@@ -54,9 +55,10 @@ Status check_segments(PlanePointsView points, SegmentsView segments, const std::
 
 Status check_options(const PlanarShapeOptions& options)
 {
-  if (!(options.winding_threshold > 0.0) || !std::isfinite(options.winding_threshold))
+  const Status status = check_positive("winding_threshold", options.winding_threshold);
+  if (!status.ok())
   {
-    return Status::invalid_input("the winding threshold must be greater than 0");
+    return status;
   }
   constexpr double largest_angle = 33.0;
   if (!(options.min_angle >= 0.0 && options.min_angle <= largest_angle))

@@ -2,6 +2,7 @@
 // Sorkine-Hornung 2013; graph_cut.h).
 #include "segmentation/segmentation.h"
 
+#include "base/range_check.h"
 #include "geometry/tet_facets.h"
 #include "segmentation/graph_cut.h"
 
@@ -64,17 +65,14 @@ Status segment_tets(ExecutionContext& context, PointsView points, TetsView tets,
   const Eigen::VectorXd& winding_numbers, const SegmentationOptions& options, Segmentation& result)
 {
   result = Segmentation();
-  if (!(options.winding_threshold > 0.0) || !std::isfinite(options.winding_threshold))
+  for (const Status& status : { check_positive("winding_threshold", options.winding_threshold),
+         check_not_negative("cut_smoothness", options.cut_smoothness),
+         check_positive("cut_sigma", options.cut_sigma) })
   {
-    return Status::invalid_input("the winding threshold must be greater than 0");
-  }
-  if (!(options.cut_smoothness >= 0.0) || !std::isfinite(options.cut_smoothness))
-  {
-    return Status::invalid_input("cut_smoothness must be 0 or more");
-  }
-  if (!(options.cut_sigma > 0.0) || !std::isfinite(options.cut_sigma))
-  {
-    return Status::invalid_input("cut_sigma must be positive");
+    if (!status.ok())
+    {
+      return status;
+    }
   }
   std::vector<char> threshold_labels(static_cast<std::size_t>(tets.rows()));
   for (Index t = 0; t < tets.rows(); ++t)

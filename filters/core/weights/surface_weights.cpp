@@ -6,6 +6,7 @@
 // reason.
 #include "weights/surface_weights.h"
 
+#include "base/range_check.h"
 #include "domain/cage_domain.h"
 #include "domain/domain_choice.h"
 #include "domain/embedded_surface.h"
@@ -934,9 +935,10 @@ Status surface_weights(ExecutionContext& context, PointsView points, TrianglesVi
   const WeightsMethod& method, SurfaceWeights& result)
 {
   result = SurfaceWeights();
-  if (!(options.winding_threshold > 0.0))
+  const Status threshold = check_positive("winding_threshold", options.winding_threshold);
+  if (!threshold.ok())
   {
-    return Status::invalid_input("the winding threshold must be positive");
+    return threshold;
   }
   if (options.resolution != 0 && (options.resolution < 6 || options.resolution > 1000))
   {

@@ -659,7 +659,7 @@ TEST(EmbeddingTets, BadInputIsNamed)
   EXPECT_EQ(message({}, 0, 0.5), "the surface has no triangles");
   EXPECT_EQ(message(mesh, -1, 0.5), "resolution must be from 0 to 1000 cubes, not -1");
   EXPECT_EQ(message(mesh, 1001, 0.5), "resolution must be from 0 to 1000 cubes, not 1001");
-  EXPECT_EQ(message(mesh, 0, 0.0), "winding_threshold must be positive");
+  EXPECT_EQ(message(mesh, 0, 0.0), "winding_threshold must be positive, not 0");
   EXPECT_EQ(message(mesh, 1000, 0.5),
     "the lattice would have more than 4000000 cubes; use a smaller resolution");
   TriangleMesh bad = mesh;

@@ -72,10 +72,15 @@ def rows(numbers, prefix=""):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("gallery-output"))
-    output = parser.parse_args().output.absolute()
+    parser.add_argument("scripts", nargs="*", metavar="SCRIPT.py", help="scripts to run (default: all)")
+    options = parser.parse_args()
+    unknown = [script for script in options.scripts if script not in SCRIPTS]
+    if unknown:
+        parser.error(f"unknown script {unknown[0]}; expected some of {', '.join(SCRIPTS)}")
+    output = options.output.absolute()
     readme = FOLDER / "README.md"
     text = readme.read_text()
-    for script in SCRIPTS:
+    for script in options.scripts or SCRIPTS:
         print(f"\n{script}", flush=True)
         subprocess.run([sys.executable, FOLDER / script, "--output", output], check=True,
                        # common.py has added the folder of the package to sys.path

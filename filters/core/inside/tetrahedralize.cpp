@@ -9,7 +9,6 @@
 #include "inside/tetrahedralize.h"
 
 #include "base/number_text.h"
-#include "base/range_check.h"
 #include "base/side_task.h"
 #include "embedding/embedding_tets.h"
 #include "geometry/working_frame.h"
@@ -51,6 +50,12 @@ Status recommend_embedding(Status status)
   status.code = StatusCode::invalid_input;
   status.message += "; method embed (--method embed) encloses any surface in a lattice of tets";
   return status;
+}
+
+SegmentationOptions segmentation_options(const TetrahedralizeOptions& options)
+{
+  return { options.segmentation, options.winding_threshold, options.cut_smoothness,
+    options.cut_sigma };
 }
 
 class Tetrahedralizer
@@ -201,8 +206,7 @@ private:
   CdtOptions cdt_options() const
   {
     CdtOptions options;
-    options.segmentation = { this->options_.segmentation, this->options_.winding_threshold,
-      this->options_.cut_smoothness, this->options_.cut_sigma };
+    options.segmentation = segmentation_options(this->options_);
     options.time_limit = this->time_limit_;
     options.memory_limit = this->options_.memory_limit;
     options.bare = this->options_.bare;
@@ -812,14 +816,10 @@ private:
 
 Status check_options(const TetrahedralizeOptions& options)
 {
-  for (const Status& status : { check_positive("winding_threshold", options.winding_threshold),
-         check_not_negative("cut_smoothness", options.cut_smoothness),
-         check_positive("cut_sigma", options.cut_sigma) })
+  const Status valid = check_options(segmentation_options(options));
+  if (!valid.ok())
   {
-    if (!status.ok())
-    {
-      return status;
-    }
+    return valid;
   }
   if (options.resolution != 0 && (options.resolution < 4 || options.resolution > 1000))
   {

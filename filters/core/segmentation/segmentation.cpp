@@ -61,10 +61,8 @@ const char* to_string(SegmentationMethod method)
   return method == SegmentationMethod::graph_cut ? "graph-cut" : "threshold";
 }
 
-Status segment_tets(ExecutionContext& context, PointsView points, TetsView tets,
-  const Eigen::VectorXd& winding_numbers, const SegmentationOptions& options, Segmentation& result)
+Status check_options(const SegmentationOptions& options)
 {
-  result = Segmentation();
   for (const Status& status : { check_positive("winding_threshold", options.winding_threshold),
          check_not_negative("cut_smoothness", options.cut_smoothness),
          check_positive("cut_sigma", options.cut_sigma) })
@@ -73,6 +71,18 @@ Status segment_tets(ExecutionContext& context, PointsView points, TetsView tets,
     {
       return status;
     }
+  }
+  return {};
+}
+
+Status segment_tets(ExecutionContext& context, PointsView points, TetsView tets,
+  const Eigen::VectorXd& winding_numbers, const SegmentationOptions& options, Segmentation& result)
+{
+  result = Segmentation();
+  const Status valid = check_options(options);
+  if (!valid.ok())
+  {
+    return valid;
   }
   std::vector<char> threshold_labels(static_cast<std::size_t>(tets.rows()));
   for (Index t = 0; t < tets.rows(); ++t)

@@ -38,6 +38,9 @@ struct SegmentationOptions
   double cut_sigma = 0.1;
 };
 
+/// Return invalid_input, with the name and the value of the option, if one is out of range.
+Status check_options(const SegmentationOptions& options);
+
 struct Segmentation
 {
   std::vector<char> inside; ///< #T: 1 inside, 0 outside

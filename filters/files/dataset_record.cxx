@@ -538,7 +538,7 @@ void write_extent(RecordWriter& to, const int* extent)
 }
 
 /// Read an extent. An empty extent has an upper end directly below the lower end. VTK multiplies
-/// the numbers of points along the axes, so none of them may be negative.
+/// the numbers of points along the axes, so each must be at least 0.
 std::array<int, 6> read_extent(RecordReader& from)
 {
   std::array<int, 6> extent{};

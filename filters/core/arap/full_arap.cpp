@@ -244,9 +244,13 @@ double FullArap::quadratic(ExecutionContext& context, const Rows& d) const
 Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveOptions& options)
 {
   Status status = check_pose(this->handles_, pose);
-  if (!status.ok() || this->frame_.is_identity())
+  if (!status.ok())
   {
-    return status.ok() ? this->solve_in_frame(context, pose, options) : status;
+    return status;
+  }
+  if (this->frame_.is_identity())
+  {
+    return this->solve_in_frame(context, pose, options);
   }
   status = this->solve_in_frame(context, to_frame(this->frame_, pose), options);
   if (status.usable())

@@ -218,9 +218,13 @@ VariationalSurface::Rows VariationalSurface::expand_prescribed(const Rows& presc
 Status VariationalSurface::solve(ExecutionContext& context, const Pose& pose)
 {
   Status status = this->handles_.empty() ? Status() : check_pose(this->handles_, pose);
-  if (!status.ok() || this->frame_.is_identity())
+  if (!status.ok())
   {
-    return status.ok() ? this->solve_in_frame(context, pose) : status;
+    return status;
+  }
+  if (this->frame_.is_identity())
+  {
+    return this->solve_in_frame(context, pose);
   }
   status = this->solve_in_frame(context, to_frame(this->frame_, pose));
   if (status.usable())

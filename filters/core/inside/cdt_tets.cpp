@@ -57,8 +57,8 @@ struct CdtTets::Perturbation
 
 namespace
 {
-/// Evaluations of TetGen's predicates that stand for a second. Long runs evaluate 3 to 10 million
-/// in a second of processor time.
+/// Number of evaluations of TetGen's predicates that counts as one second. Long runs evaluate 3 to
+/// 10 million in a second of processor time.
 constexpr double tetgen_work_per_second = 5e6;
 
 /// Map an integer to a number in [-1, 1), identically on every machine (splitmix64).

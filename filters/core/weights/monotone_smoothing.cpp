@@ -745,9 +745,13 @@ Status monotone_smoothing(ExecutionContext& context, const Domain& domain, const
 {
   WorkingFrame frame;
   Status status = choose_working_frame(domain, "the mesh", frame);
-  if (!status.ok() || frame.is_identity())
+  if (!status.ok())
   {
-    return status.ok() ? Smoothing(context, domain, data, options, result).run() : status;
+    return status;
+  }
+  if (frame.is_identity())
+  {
+    return Smoothing(context, domain, data, options, result).run();
   }
   Domain framed = domain;
   framed.points = frame.to_frame(framed.points);

@@ -81,6 +81,15 @@ Status read(const std::string& path, int result)
                   ", which is not supported");
 }
 
+using PictureReader = Status (*)(const std::string& path, vtkSmartPointer<vtkImageData>& image);
+
+Status read_picture(PictureReader read_file, const std::string& path, int result)
+{
+  vtkSmartPointer<vtkImageData> image;
+  const Status status = read_file(path, image);
+  return status.ok() ? bindpose::write_dataset_record(result, image) : status;
+}
+
 Status read_format(const std::string& path, const std::string& format, int result)
 {
   if (format == "vtp")
@@ -101,9 +110,7 @@ Status read_format(const std::string& path, const std::string& format, int resul
   }
   if (format == "png")
   {
-    vtkSmartPointer<vtkImageData> image;
-    const Status status = bindpose::read_png(path, image);
-    return status.ok() ? bindpose::write_dataset_record(result, image) : status;
+    return read_picture(bindpose::read_png, path, result);
   }
   if (format == "jpg" || format == "jpeg")
   {
@@ -111,9 +118,7 @@ Status read_format(const std::string& path, const std::string& format, int resul
   }
   if (format == "tif" || format == "tiff")
   {
-    vtkSmartPointer<vtkImageData> image;
-    const Status status = bindpose::read_tiff(path, image);
-    return status.ok() ? bindpose::write_dataset_record(result, image) : status;
+    return read_picture(bindpose::read_tiff, path, result);
   }
   if (format == "bmp")
   {

@@ -1,8 +1,9 @@
 #include "read_png.h"
 
+#include "make_picture.h"
+
 #include "vtkImageData.h"
 #include "vtkNew.h"
-#include "vtkPointData.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <fstream>
@@ -37,7 +38,6 @@ Status read_png(const std::string& path, vtkSmartPointer<vtkImageData>& image)
   }
   png.format = (png.format & PNG_FORMAT_FLAG_ALPHA) ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
   vtkNew<vtkUnsignedCharArray> pixels;
-  pixels->SetName("Pixels");
   pixels->SetNumberOfComponents(static_cast<int>(PNG_IMAGE_PIXEL_CHANNELS(png.format)));
   pixels->SetNumberOfTuples(static_cast<vtkIdType>(png.width) * png.height);
   // The negative stride stores the top line of the image last.
@@ -50,9 +50,7 @@ Status read_png(const std::string& path, vtkSmartPointer<vtkImageData>& image)
   {
     return Status::invalid_input("the file is truncated");
   }
-  image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(static_cast<int>(png.width), static_cast<int>(png.height), 1);
-  image->GetPointData()->SetScalars(pixels);
+  image = make_picture(png.width, png.height, pixels);
   return {};
 }
 

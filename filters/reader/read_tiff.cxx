@@ -1,8 +1,9 @@
 #include "read_tiff.h"
 
+#include "make_picture.h"
+
 #include "vtkImageData.h"
 #include "vtkNew.h"
-#include "vtkPointData.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
@@ -66,7 +67,6 @@ Status read_tiff(const std::string& path, vtkSmartPointer<vtkImageData>& image)
   TIFFGetFieldDefaulted(file.get(), TIFFTAG_EXTRASAMPLES, &extra_channels, &channel_types);
   const bool has_alpha = extra_channels > 0;
   vtkNew<vtkUnsignedCharArray> pixels;
-  pixels->SetName("Pixels");
   pixels->SetNumberOfComponents(has_alpha ? 4 : 3);
   pixels->SetNumberOfTuples(static_cast<vtkIdType>(colors.size()));
   unsigned char* bytes = pixels->GetPointer(0);
@@ -84,9 +84,7 @@ Status read_tiff(const std::string& path, vtkSmartPointer<vtkImageData>& image)
       *bytes++ = static_cast<unsigned char>(alpha);
     }
   }
-  image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(static_cast<int>(width), static_cast<int>(height), 1);
-  image->GetPointData()->SetScalars(pixels);
+  image = make_picture(width, height, pixels);
   return {};
 }
 

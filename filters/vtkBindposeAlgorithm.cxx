@@ -28,7 +28,7 @@
 
 #include "base/execution.h"
 #include "base/status.h"
-#include "cell_sizes.h"
+#include "cell_check.h"
 #include "io/report_json.h"
 #include "report_field_data.h"
 
@@ -484,7 +484,7 @@ int vtkBindposeAlgorithm::RequestData(vtkInformationVector** input, vtkInformati
       }
       if (status.usable())
       {
-        const bindpose::Status checked = bindpose::check_cell_sizes(data);
+        const bindpose::Status checked = bindpose::check_cells(data);
         status = checked.ok() ? status : checked;
       }
     }

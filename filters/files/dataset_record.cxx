@@ -3,7 +3,7 @@
 // record ends with the magic word, so that a truncated record is detected.
 #include "dataset_record.h"
 
-#include "cell_sizes.h"
+#include "cell_check.h"
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkAbstractArray.h"
@@ -392,8 +392,7 @@ void write_cells(RecordWriter& to, vtkCellArray* cells)
   write_array(to, all->GetConnectivityArray());
 }
 
-/// Check that the offsets start at 0, ascend, and end at the number of ids, and that all ids are in
-/// range. Then set the cells.
+/// Check that all ids are in range, and set the cells. require_valid_cells() checks the offsets.
 template <typename Value>
 void set_cells(
   vtkDataArray* offsets, vtkDataArray* connectivity, vtkIdType points, vtkCellArray* cells)
@@ -405,20 +404,6 @@ void set_cells(
     ends->GetNumberOfValues() == 0)
   {
     throw InvalidRecord{ "the cells have no valid offsets" };
-  }
-  Value previous = 0;
-  for (vtkIdType k = 0; k < ends->GetNumberOfValues(); ++k)
-  {
-    const Value offset = ends->GetValue(k);
-    if (offset < previous || (k == 0 && offset != 0))
-    {
-      throw InvalidRecord{ "the offsets of the cells do not ascend from 0" };
-    }
-    previous = offset;
-  }
-  if (previous != ids->GetNumberOfValues())
-  {
-    throw InvalidRecord{ "the offsets of the cells do not end at the number of point ids" };
   }
   for (vtkIdType k = 0; k < ids->GetNumberOfValues(); ++k)
   {
@@ -462,10 +447,10 @@ void write_polydata(RecordWriter& to, vtkPolyData* data)
   }
 }
 
-/// Throw InvalidRecord if check_cell_sizes() fails.
-void require_cell_sizes(vtkDataObject* data)
+/// Throw InvalidRecord if check_cells() fails.
+void require_valid_cells(vtkDataObject* data)
 {
-  const Status status = check_cell_sizes(data);
+  const Status status = check_cells(data);
   if (!status.ok())
   {
     throw InvalidRecord{ status.message };
@@ -481,7 +466,7 @@ vtkSmartPointer<vtkDataSet> read_polydata(RecordReader& from)
   data->SetLines(read_cells(from, points));
   data->SetPolys(read_cells(from, points));
   data->SetStrips(read_cells(from, points));
-  require_cell_sizes(data);
+  require_valid_cells(data);
   return data;
 }
 
@@ -525,7 +510,7 @@ vtkSmartPointer<vtkDataSet> read_grid(RecordReader& from)
   {
     data->SetCells(bytes, cells);
   }
-  require_cell_sizes(data);
+  require_valid_cells(data);
   return data;
 }
 

@@ -3,6 +3,7 @@
 // only tets.
 #include "conversion.h"
 
+#include "cell_check.h"
 #include "geometry/working_frame.h"
 
 #include "vtkCell.h"
@@ -99,51 +100,6 @@ bool ids_in_range(vtkIdType count, const vtkIdType* ids, vtkIdType number_of_poi
   return true;
 }
 
-/// Report whether the offsets of a cell array ascend from 0 to the number of its point ids.
-template <typename Array>
-bool offsets_are_valid(Array* offsets, vtkIdType number_of_ids)
-{
-  const vtkIdType count = offsets->GetNumberOfValues();
-  for (vtkIdType k = 0; k < count; ++k)
-  {
-    if (offsets->GetValue(k) < (k > 0 ? offsets->GetValue(k - 1) : 0))
-    {
-      return false;
-    }
-  }
-  return count > 0 && offsets->GetValue(0) == 0 && offsets->GetValue(count - 1) == number_of_ids;
-}
-
-/// Check the offsets of cells, because VTK reads out of bounds if an offset is invalid.
-Status check_offsets(vtkCellArray* cells)
-{
-  const bool valid = !cells || cells->GetNumberOfCells() == 0 ||
-    (cells->IsStorage64Bit()
-        ? offsets_are_valid(cells->GetOffsetsArray64(), cells->GetNumberOfConnectivityIds())
-        : offsets_are_valid(cells->GetOffsetsArray32(), cells->GetNumberOfConnectivityIds()));
-  return valid ? Status()
-               : Status::invalid_input("the offsets of the cells are not valid; they must ascend "
-                                       "from 0 to the number of the cells' point ids");
-}
-
-Status check_offsets(vtkPointSet* data)
-{
-  if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data))
-  {
-    return check_offsets(grid->GetCells());
-  }
-  Status status;
-  if (auto* surface = vtkPolyData::SafeDownCast(data))
-  {
-    for (vtkCellArray* cells :
-      { surface->GetVerts(), surface->GetLines(), surface->GetPolys(), surface->GetStrips() })
-    {
-      status = status.ok() ? check_offsets(cells) : status;
-    }
-  }
-  return status;
-}
-
 Status split_cells(vtkPointSet* data, SurfaceInput& surface)
 {
   vtkNew<vtkIdList> cell_points;
@@ -180,11 +136,6 @@ Status split_cells(vtkPointSet* data, SurfaceInput& surface)
     }
     else
     {
-      if (type == VTK_PIXEL && count != 4)
-      {
-        return Status::invalid_input("cell " + std::to_string(cell) + " is a pixel with " +
-          std::to_string(count) + " points; expected 4");
-      }
       if (type == VTK_PIXEL)
       {
         std::swap(ids[2], ids[3]);
@@ -240,7 +191,7 @@ Status to_surface(vtkDataSet* data, SurfaceInput& surface)
       std::to_string(set->GetNumberOfPoints()) + " points and " +
       std::to_string(set->GetNumberOfCells()) + " cells");
   }
-  Status valid = check_offsets(set);
+  Status valid = check_cells(set);
   if (!valid.ok())
   {
     return valid;
@@ -280,7 +231,7 @@ Status to_tets(vtkDataSet* data, TetInput& tets)
   {
     return Status::invalid_input("the tet mesh is empty");
   }
-  Status valid = check_offsets(grid);
+  Status valid = check_cells(grid);
   if (!valid.ok())
   {
     return valid;
@@ -301,11 +252,6 @@ Status to_tets(vtkDataSet* data, TetInput& tets)
     for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
     {
       grid->GetCellPoints(cell, ids);
-      if (ids->GetNumberOfIds() != 4)
-      {
-        return Status::invalid_input("cell " + std::to_string(cell) + " is a tet with " +
-          std::to_string(ids->GetNumberOfIds()) + " points; expected 4");
-      }
       for (int k = 0; k < 4; ++k)
       {
         matrix(cell, k) = ids->GetId(k);

@@ -4,7 +4,7 @@
 #include "winding_field.h"
 
 #include "base/execution.h"
-#include "cell_sizes.h"
+#include "cell_check.h"
 #include "geometry/working_frame.h"
 #include "winding/curve_winding_number.h"
 #include "winding/point_cloud_winding_number.h"
@@ -480,7 +480,7 @@ Status WindingField::extent(vtkPointSet* input, Box& box, int& flat_axis)
 {
   flat_axis = -1;
   box = Box();
-  const Status sizes = check_cell_sizes(input);
+  const Status sizes = check_cells(input);
   if (!sizes.ok())
   {
     return sizes;

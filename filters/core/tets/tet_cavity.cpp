@@ -27,9 +27,8 @@ bool CavitySearch::find(const Vec3& p, Index start, double minimum_quality, TetC
 {
   const auto tets = static_cast<std::size_t>(this->tets_.tet_id_limit());
   this->cavity_.resize(tets, 0);
-  this->site_ids_.resize(tets, 0);
-  this->collect_sphere(p, start);
-  if (!this->shrink(p, start, minimum_quality))
+  this->collected_.resize(tets, 0);
+  if (!this->collect_sphere(p, start, minimum_quality) || !this->shrink(p, start, minimum_quality))
   {
     return false;
   }
@@ -49,50 +48,48 @@ bool CavitySearch::is_in_sphere(const Tet& tet, const Vec3& p) const
   return q.squaredNorm() * u.dot(vw) < q.dot(center);
 }
 
-void CavitySearch::add_site(Index t)
+void CavitySearch::add(Index t)
 {
   this->cavity_[t] = this->searches_;
-  this->site_ids_[t] = static_cast<Index>(this->sites_.size());
-  this->sites_.emplace_back();
+  this->collected_[t] = static_cast<Index>(this->qualities_.size());
+  this->qualities_.push_back({ NAN, NAN, NAN, NAN });
   this->queue_.push_back(t);
 }
 
-/// Return the tet beyond facet k of a tet of the cavity.
-Index CavitySearch::site_neighbor(Index t, int k)
-{
-  Index& next = this->site_of(t).neighbor_tet[k];
-  if (next == Site::unknown)
-  {
-    const Tet& tet = this->tets_.tet(t);
-    const auto& f = facet_corners[k];
-    next = this->tets_.neighbor_tet(t, tet[f[0]], tet[f[1]], tet[f[2]]);
-  }
-  return next;
-}
-
-void CavitySearch::collect_sphere(const Vec3& p, Index start)
+/// Collect the tets around `start`, connected by facets, whose circumspheres contain p. @return
+/// false if a facet of `start` would bound the cavity and form too flat a tet with p.
+bool CavitySearch::collect_sphere(const Vec3& p, Index start, double minimum_quality)
 {
   ++this->searches_;
-  this->sites_.clear();
+  this->qualities_.clear();
   this->queue_.clear();
-  this->add_site(start);
+  this->add(start);
   for (std::size_t i = 0; i < this->queue_.size(); ++i)
   {
     for (int k = 0; k < 4; ++k)
     {
-      const Index next = this->site_neighbor(this->queue_[i], k);
-      if (next >= 0 && !this->is_in_cavity(next) && this->is_in_sphere(this->tets_.tet(next), p))
+      const Index next = this->tets_.neighbor_tet(this->queue_[i], k);
+      if (this->is_in_cavity(next))
       {
-        this->add_site(next);
+        continue;
+      }
+      if (next >= 0 && this->is_in_sphere(this->tets_.tet(next), p))
+      {
+        this->add(next);
         ++this->evaluations_;
+      }
+      else if (i == 0 && !this->facet_fits(p, start, k, minimum_quality))
+      {
+        return false;
       }
     }
   }
+  return true;
 }
 
 bool CavitySearch::facet_fits(const Vec3& p, Index t, int k, double minimum_quality)
 {
-  double& fit = this->site_of(t).qualities[k];
+  double& fit = this->qualities_[this->collected_[t]][k];
   if (std::isnan(fit))
   {
     ++this->evaluations_;
@@ -124,7 +121,7 @@ bool CavitySearch::shrink(const Vec3& p, Index start, double minimum_quality)
     }
     for (int k = 0; k < 4; ++k)
     {
-      if (this->is_in_cavity(this->site_neighbor(t, k)) ||
+      if (this->is_in_cavity(this->tets_.neighbor_tet(t, k)) ||
         this->facet_fits(p, t, k, minimum_quality))
       {
         continue;
@@ -136,7 +133,7 @@ bool CavitySearch::shrink(const Vec3& p, Index start, double minimum_quality)
       this->cavity_[t] = 0;
       for (int other = 0; other < 4; ++other)
       {
-        const Index neighbor = this->site_neighbor(t, other);
+        const Index neighbor = this->tets_.neighbor_tet(t, other);
         if (this->is_in_cavity(neighbor))
         {
           this->queue_.push_back(neighbor);
@@ -160,7 +157,7 @@ void CavitySearch::collect_connected(Index start, TetCavity& cavity)
     const Index t = cavity.tets[i];
     for (int k = 0; k < 4; ++k)
     {
-      const Index next = this->site_neighbor(t, k);
+      const Index next = this->tets_.neighbor_tet(t, k);
       if (this->is_in_cavity(next))
       {
         this->cavity_[next] = reached_mark;

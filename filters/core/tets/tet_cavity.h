@@ -43,22 +43,14 @@ public:
 private:
   using Tet = TetComplex::Tet;
   using Facet = TetComplex::Facet;
-  /// A tet of a cavity, with cached values of its facets while the cavity shrinks.
-  struct Site
-  {
-    static constexpr Index unknown = -2;
-    std::array<Index, 4> neighbor_tet{ unknown, unknown, unknown, unknown };
-    /// Qualities of the new tets on the four facets; NAN: not yet computed.
-    std::array<double, 4> qualities{ NAN, NAN, NAN, NAN };
-  };
+  /// Qualities of the new tets on the four facets of a tet of the cavity. NAN: not yet computed.
+  using Qualities = std::array<double, 4>;
   bool is_in_sphere(const Tet& tet, const Vec3& p) const;
-  Site& site_of(Index t) { return this->sites_[this->site_ids_[t]]; }
-  void add_site(Index t);
+  void add(Index t);
   bool is_in_cavity(Index t) const { return t >= 0 && this->cavity_[t] == this->searches_; }
-  Index site_neighbor(Index t, int k);
   Facet facet_inwards(Index t, int k) const;
   bool facet_fits(const Vec3& p, Index t, int k, double minimum_quality);
-  void collect_sphere(const Vec3& p, Index start);
+  bool collect_sphere(const Vec3& p, Index start, double minimum_quality);
   bool shrink(const Vec3& p, Index start, double minimum_quality);
   void collect_connected(Index start, TetCavity& cavity);
   bool preserves_volume(const Vec3& p, const TetCavity& cavity) const;
@@ -67,8 +59,8 @@ private:
   /// Per tet: the index of the last search whose cavity contained the tet. The index is negative if
   /// the tet is connected to the start.
   std::vector<Index> cavity_;
-  std::vector<Site> sites_; ///< tets of the cavity in the current search
-  std::vector<Index> site_ids_; ///< per tet: its index in sites_, if it is in the cavity
+  std::vector<Qualities> qualities_; ///< per collected tet of the current search
+  std::vector<Index> collected_; ///< per tet: its index in qualities_, if it has been collected
   std::vector<Index> queue_; ///< tets that the current search will visit
   Index searches_ = 0;
   Index evaluations_ = 0;

@@ -1,4 +1,4 @@
-// A tet mesh that is edited in place, with adjacency by the lists of tets per vertex.
+// A tet mesh that is edited in place, with lists of tets per vertex and neighbors per tet.
 #include "tets/tet_complex.h"
 
 #include "geometry/tet_facets.h"
@@ -29,15 +29,21 @@ TetComplex::TetComplex(TetMesh& mesh)
   this->stamp_.resize(this->points_.size(), 0);
   const auto tets = static_cast<std::size_t>(mesh.tets.rows());
   this->tets_.reserve(tets);
+  this->neighbors_.reserve(tets);
   this->quality_.reserve(tets);
   for (Index t = 0; t < mesh.tets.rows(); ++t)
   {
     this->add({ mesh.tets(t, 0), mesh.tets(t, 1), mesh.tets(t, 2), mesh.tets(t, 3) });
   }
-  const Triangles boundary_facets = boundary_triangles(mesh.tets);
-  for (Index k = 0; k < boundary_facets.size(); ++k)
+  for (Index t = 0; t < this->tet_id_limit(); ++t)
   {
-    this->boundary_[boundary_facets.data()[k]] = 1;
+    for (int k = 0; k < 4; ++k)
+    {
+      for (int i = 0; i < 3 && this->neighbors_[t][k] < 0; ++i)
+      {
+        this->boundary_[this->tets_[t][facet_corners[k][i]]] = 1;
+      }
+    }
   }
 }
 
@@ -146,6 +152,7 @@ Index TetComplex::add(const Tet& tet)
   const Index id = this->tet_id_limit();
   this->tets_.push_back(tet);
   this->quality_.push_back(this->quality(tet));
+  this->link_neighbors(id);
   ++this->changes_;
   for (const Index v : tet)
   {
@@ -165,8 +172,52 @@ void TetComplex::remove(Index t)
     list.erase(std::find(list.begin(), list.end(), t));
     this->stamp_[v] = this->changes_;
   }
+  this->unlink_neighbors(t);
   this->quality_[t] = removed_quality;
   --this->count_;
+}
+
+/// Find the neighbors of the last tet, t. The lists of tets per vertex do not contain t yet.
+void TetComplex::link_neighbors(Index t)
+{
+  std::array<Index, 4>& neighbors = this->neighbors_.emplace_back();
+  for (int k = 0; k < 4; ++k)
+  {
+    const auto& f = facet_corners[k];
+    Index a = this->tets_[t][f[0]], b = this->tets_[t][f[1]], c = this->tets_[t][f[2]];
+    // Search the shortest of the three lists of tets.
+    if (this->vertex_tets_[b].size() < this->vertex_tets_[a].size())
+    {
+      std::swap(a, b);
+    }
+    if (this->vertex_tets_[c].size() < this->vertex_tets_[a].size())
+    {
+      std::swap(a, c);
+    }
+    const std::vector<Index>& list = this->vertex_tets_[a];
+    const auto found = std::find_if(list.begin(), list.end(),
+      [&](Index s) { return has_vertex(this->tets_[s], b) && has_vertex(this->tets_[s], c); });
+    neighbors[k] = found == list.end() ? -1 : *found;
+    if (found != list.end())
+    {
+      const Tet& other = this->tets_[*found];
+      const auto opposite = std::find_if(
+        other.begin(), other.end(), [&](Index v) { return v != a && v != b && v != c; });
+      this->neighbors_[*found][opposite - other.begin()] = t;
+    }
+  }
+}
+
+void TetComplex::unlink_neighbors(Index t)
+{
+  for (const Index neighbor : this->neighbors_[t])
+  {
+    if (neighbor >= 0)
+    {
+      std::array<Index, 4>& back = this->neighbors_[neighbor];
+      std::replace(back.begin(), back.end(), t, Index(-1));
+    }
+  }
 }
 
 std::vector<Index> TetComplex::compact(Index ids)
@@ -178,14 +229,24 @@ std::vector<Index> TetComplex::compact(Index ids)
     if (this->alive(t))
     {
       this->tets_[count] = this->tets_[t];
+      this->neighbors_[count] = this->neighbors_[t];
       this->quality_[count] = this->quality_[t];
       new_ids[t] = count++;
     }
   }
   this->tets_.resize(static_cast<std::size_t>(count));
+  this->neighbors_.resize(static_cast<std::size_t>(count));
   this->quality_.resize(static_cast<std::size_t>(count));
   this->tets_.reserve(static_cast<std::size_t>(ids));
+  this->neighbors_.reserve(static_cast<std::size_t>(ids));
   this->quality_.reserve(static_cast<std::size_t>(ids));
+  for (std::array<Index, 4>& neighbors : this->neighbors_)
+  {
+    for (Index& t : neighbors)
+    {
+      t = t >= 0 ? new_ids[t] : -1;
+    }
+  }
   for (std::vector<Index>& list : this->vertex_tets_)
   {
     for (Index& t : list)
@@ -286,41 +347,18 @@ bool TetComplex::find_ring(Index a, Index b, Ring& ring) const
   return true;
 }
 
-Index TetComplex::neighbor_tet(Index t, Index a, Index b, Index c) const
-{
-  // Search the shortest of the three lists of tets.
-  if (this->vertex_tets_[b].size() < this->vertex_tets_[a].size())
-  {
-    std::swap(a, b);
-  }
-  if (this->vertex_tets_[c].size() < this->vertex_tets_[a].size())
-  {
-    std::swap(a, c);
-  }
-  for (const Index s : this->vertex_tets_[a])
-  {
-    if (s != t && has_vertex(this->tets_[s], b) && has_vertex(this->tets_[s], c))
-    {
-      return s;
-    }
-  }
-  return -1;
-}
-
 std::vector<TetComplex::Facet> TetComplex::boundary_facets_at(Index v) const
 {
   std::vector<Facet> boundary_facets;
   for (const Index t : this->vertex_tets_[v])
   {
     const Tet& tet = this->tets_[t];
-    for (const auto& f : facet_corners)
+    for (int k = 0; k < 4; ++k)
     {
-      const Facet facet{ tet[f[0]], tet[f[1]], tet[f[2]] };
-      if ((facet[0] == v || facet[1] == v || facet[2] == v) && this->boundary_[facet[0]] &&
-        this->boundary_[facet[1]] && this->boundary_[facet[2]] &&
-        this->neighbor_tet(t, facet[0], facet[1], facet[2]) < 0)
+      if (tet[k] != v && this->neighbor_tet(t, k) < 0)
       {
-        boundary_facets.push_back(facet);
+        const auto& f = facet_corners[k];
+        boundary_facets.push_back({ tet[f[0]], tet[f[1]], tet[f[2]] });
       }
     }
   }
@@ -347,7 +385,7 @@ Index TetComplex::split_edge(Index a, Index b, const Vec3& p)
   for (const Index t : old_tets)
   {
     const auto [c, d] = this->opposite_edge(t, a, b);
-    open = open || this->neighbor_tet(t, a, b, c) < 0 || this->neighbor_tet(t, a, b, d) < 0;
+    open = open || this->neighbor_across(t, c) < 0 || this->neighbor_across(t, d) < 0;
   }
   const Index v = this->add_vertex(p, open);
   for (const Index t : old_tets)

@@ -3,6 +3,7 @@
 
 #include "geometry/mesh.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <utility>
@@ -11,9 +12,11 @@
 namespace bindpose
 {
 
-/// A tet mesh that is edited in place. Each vertex stores its tets. The ids of removed tets are not
-/// used again before compact(). Queries are thread-safe while no thread edits the mesh. The quality
-/// of a tet is the squared sine of its smallest dihedral angle (at most 70.53 degrees).
+/// A tet mesh that is edited in place. Each vertex stores its tets, and each tet its neighbors. The
+/// ids of removed tets are not used again before compact(). Queries are thread-safe while no thread
+/// edits the mesh. A facet must never have more than two tets, so tets must be removed before
+/// others replace them. The quality of a tet is the squared sine of its smallest dihedral angle (at
+/// most 70.53 degrees).
 class TetComplex
 {
 public:
@@ -85,8 +88,16 @@ public:
   /// Find the ring of edge a-b. @return false if the tets of the edge do not form a single ring, or
   /// if there are more than maximum_ring_size of them.
   bool find_ring(Index a, Index b, Ring& ring) const;
-  /// Return the tet on the other side of a facet, or -1 on the boundary.
-  Index neighbor_tet(Index t, Index a, Index b, Index c) const;
+  /// Return the tet on the other side of facet k (see facet_corners) of tet t, or -1 on the
+  /// boundary.
+  Index neighbor_tet(Index t, int k) const { return this->neighbors_[t][k]; }
+  /// Return the tet on the other side of the facet of tet t that is opposite to vertex v, or -1 on
+  /// the boundary.
+  Index neighbor_across(Index t, Index v) const
+  {
+    const Tet& tet = this->tets_[t];
+    return this->neighbors_[t][std::find(tet.begin(), tet.end(), v) - tet.begin()];
+  }
   /// Return the boundary facets at vertex v, oriented outwards.
   std::vector<Facet> boundary_facets_at(Index v) const;
 
@@ -98,8 +109,12 @@ public:
   Index split_edge(Index a, Index b, const Vec3& p);
 
 private:
+  void link_neighbors(Index t);
+  void unlink_neighbors(Index t);
+
   std::vector<Vec3> points_;
   std::vector<Tet> tets_;
+  std::vector<std::array<Index, 4>> neighbors_; ///< per tet: the neighbors at the four facets
   std::vector<double> quality_;
   std::vector<std::vector<Index>> vertex_tets_; ///< tet ids per vertex
   std::vector<char> boundary_; ///< per vertex: 1 on the boundary, else 0

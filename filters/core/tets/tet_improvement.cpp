@@ -172,9 +172,17 @@ private:
         if (step.kind == TetStep::Kind::none)
         {
           this->last_search_[batch[i]] = before;
+          if (may_insert(this->rules_, batch[i]))
+          {
+            ++this->rules_.failed_insertions[batch[i]];
+          }
           continue;
         }
         ++count.improved;
+        if (step.kind == TetStep::Kind::insert)
+        {
+          this->rules_.failed_insertions[batch[i]] = 0;
+        }
         this->apply(step);
         deferred.push_back(batch[i]);
       }
@@ -205,7 +213,9 @@ private:
   /// @return false if canceled.
   bool find_steps(const std::vector<Index>& tets)
   {
-    this->last_search_.resize(static_cast<std::size_t>(this->tets_.tet_id_limit()), 0);
+    const auto tet_ids = static_cast<std::size_t>(this->tets_.tet_id_limit());
+    this->last_search_.resize(tet_ids, 0);
+    this->rules_.failed_insertions.resize(tet_ids, 0);
     this->steps_.resize(maximum_batch);
     const bool completed =
       parallel_for(this->silent_context_, static_cast<Index>(tets.size()), per_task,
@@ -332,9 +342,8 @@ private:
       const Tet& tet = this->tets_.tet(t);
       const bool constrained =
         std::any_of(tet.begin(), tet.end(), [&](Index v) { return this->rules_.constrained[v]; });
-      const bool is_isolated = std::all_of(std::begin(facet_corners), std::end(facet_corners),
-        [&](const auto& f)
-        { return this->tets_.neighbor_tet(t, tet[f[0]], tet[f[1]], tet[f[2]]) < 0; });
+      const bool is_isolated = std::all_of(
+        tet.begin(), tet.end(), [&](Index v) { return this->tets_.neighbor_across(t, v) < 0; });
       if (!constrained && is_isolated)
       {
         this->tets_.remove(t);

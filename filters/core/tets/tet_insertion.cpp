@@ -254,9 +254,7 @@ private:
       {
         return t;
       }
-      const Tet& tet = this->tets_.tet(t);
-      const auto& f = facet_corners[side];
-      t = this->tets_.neighbor_tet(t, tet[f[0]], tet[f[1]], tet[f[2]]);
+      t = this->tets_.neighbor_tet(t, side);
     }
     return -1;
   }

@@ -74,6 +74,12 @@ bool may_move(const TetComplex& tets, const TetStepRules& rules, Index v)
     (!tets.on_boundary(v) || rules.surface) && rules.immovable_since[v] != tets.stamp(v);
 }
 
+bool may_insert(const TetStepRules& rules, Index t)
+{
+  constexpr std::uint8_t maximum_failures = 3;
+  return rules.insert && rules.failed_insertions[t] < maximum_failures;
+}
+
 TetStepSearch::TetStepSearch(const TetComplex& tets, const TetStepRules& rules)
   : tets_(tets), rules_(rules), good_quality_(TetComplex::quality_of_angle(rules.options.angle)),
     insertion_quality_(TetComplex::quality_of_angle(rules.options.insert_angle)), cavities_(tets)
@@ -94,9 +100,9 @@ void TetStepSearch::find(Index t, TetStep& step)
       }
     }
   }
-  for (const auto& f : facet_corners)
+  for (int k = 0; k < 4; ++k)
   {
-    if (this->remove_facet(t, tet[f[0]], tet[f[1]], tet[f[2]], step))
+    if (this->remove_facet(t, k, step))
     {
       return;
     }
@@ -115,7 +121,7 @@ void TetStepSearch::find(Index t, TetStep& step)
       return;
     }
   }
-  if (!this->contract_short_edge(tet, 1.0, step) && this->rules_.insert &&
+  if (!this->contract_short_edge(tet, 1.0, step) && may_insert(this->rules_, t) &&
     this->tets_.quality(t) < this->insertion_quality_)
   {
     this->insert_near(t, step);
@@ -126,6 +132,13 @@ double TetStepSearch::quality(const Tet& tet)
 {
   ++this->evaluations_;
   return this->tets_.quality(tet);
+}
+
+/// Return the quality of the tet that connects facet f to p.
+double TetStepSearch::quality(const Facet& f, const Vec3& p)
+{
+  ++this->evaluations_;
+  return TetComplex::quality(this->point(f[0]), this->point(f[1]), this->point(f[2]), p);
 }
 
 double TetStepSearch::penalty(double quality) const
@@ -281,39 +294,26 @@ bool TetStepSearch::may_swap_boundary(Index a, Index b, const Ring& ring) const
   return !this->tets_.has_edge(first, last);
 }
 
-bool TetStepSearch::remove_facet(Index t, Index a, Index b, Index c, TetStep& step)
+bool TetStepSearch::remove_facet(Index t, int k, TetStep& step)
 {
-  const Index other = this->tets_.neighbor_tet(t, a, b, c);
+  const Index other = this->tets_.neighbor_tet(t, k);
   if (other < 0)
   {
     return false;
   }
-  const auto apex = [&](Index s)
-  {
-    for (const Index v : this->tets_.tet(s))
-    {
-      if (v != a && v != b && v != c)
-      {
-        return v;
-      }
-    }
-    return Index(-1);
-  };
-  const Index d = apex(t), e = apex(other);
-  std::array<Tet, 3> added{ { { a, b, e, d }, { b, c, e, d }, { c, a, e, d } } };
-  if (this->tets_.volume({ a, b, c, d }) < 0.0)
-  {
-    for (Tet& tet : added)
-    {
-      std::swap(tet[0], tet[1]);
-    }
-  }
+  const Tet& tet = this->tets_.tet(t);
+  const Tet& other_tet = this->tets_.tet(other);
+  const auto& f = facet_corners[k];
+  const Index a = tet[f[0]], b = tet[f[1]], c = tet[f[2]], d = tet[k];
+  const Index e = *std::find_if(
+    other_tet.begin(), other_tet.end(), [&](Index v) { return v != a && v != b && v != c; });
+  const std::array<Tet, 3> added{ { { b, a, e, d }, { c, b, e, d }, { a, c, e, d } } };
   const Cost old_cost = this->cost({ t, other });
   const double minimum_quality = this->minimum_quality_after(old_cost);
   double sum = 0.0;
-  for (const Tet& tet : added)
+  for (const Tet& one : added)
   {
-    const double value = this->quality(tet);
+    const double value = this->quality(one);
     if (!(value > 0.0) || value < minimum_quality)
     {
       return false;
@@ -438,10 +438,13 @@ double TetStepSearch::total_cost(
   double sum = 0.0;
   for (const auto& item : items)
   {
-    ++this->evaluations_;
     const double value = quality_of(item);
+    if (!(value > 0.0) || value < minimum_quality)
+    {
+      return infinite_cost;
+    }
     sum += this->penalty(value);
-    if (!(value > 0.0) || value < minimum_quality || sum > upper_limit)
+    if (sum > upper_limit)
     {
       return infinite_cost;
     }
@@ -452,9 +455,12 @@ double TetStepSearch::total_cost(
 /// Return the cost that the tets in star_ would have if vertex v were at p.
 double TetStepSearch::star_cost(Index v, const Vec3& p, double minimum_quality, double upper_limit)
 {
-  return this->total_cost(
-    this->star_, [&](Index t) { return this->tets_.quality_with(t, v, p); }, minimum_quality,
-    upper_limit);
+  const auto quality_of = [&](Index t)
+  {
+    ++this->evaluations_;
+    return this->tets_.quality_with(t, v, p);
+  };
+  return this->total_cost(this->star_, quality_of, minimum_quality, upper_limit);
 }
 
 // ---- New vertices ------------------------------------------------------------------------------
@@ -511,7 +517,9 @@ bool TetStepSearch::insert(Index t, Vec3 p, TetStep& step)
   // the second limit.
   constexpr double first_cost_limit = 3.0;
   constexpr double second_cost_limit = 1.5;
-  double value = this->cavity_cost(step.cavity, p, minimum_quality, infinite_cost);
+  this->sort_facets(step.cavity, p);
+  double value =
+    this->cavity_cost(step.cavity, p, minimum_quality, first_cost_limit * old_cost.sum);
   if (!(value < first_cost_limit * old_cost.sum))
   {
     return false;
@@ -547,15 +555,28 @@ bool TetStepSearch::insert(Index t, Vec3 p, TetStep& step)
   return true;
 }
 
+/// Sort the facets of the cavity by the qualities of the tets that connect them to p, worst first.
+/// The worst tets reject most of the new positions.
+void TetStepSearch::sort_facets(TetCavity& cavity, const Vec3& p)
+{
+  std::vector<std::pair<double, Facet>>& ranked = this->ranked_facets_;
+  ranked.clear();
+  for (const Facet& f : cavity.facets)
+  {
+    ranked.emplace_back(this->quality(f, p), f);
+  }
+  std::sort(ranked.begin(), ranked.end());
+  std::transform(ranked.begin(), ranked.end(), cavity.facets.begin(),
+    [](const std::pair<double, Facet>& rank) { return rank.second; });
+}
+
 /// Return the cost of the new tets, each of which connects a facet of the cavity to p.
 double TetStepSearch::cavity_cost(
   const TetCavity& cavity, const Vec3& p, double minimum_quality, double upper_limit)
 {
   return this->total_cost(
-    cavity.facets,
-    [&](const Facet& f)
-    { return TetComplex::quality(this->point(f[0]), this->point(f[1]), this->point(f[2]), p); },
-    minimum_quality, upper_limit);
+    cavity.facets, [&](const Facet& f) { return this->quality(f, p); }, minimum_quality,
+    upper_limit);
 }
 
 // ---- Contraction -----------------------------------------------------------------------------

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace bindpose
@@ -50,6 +51,9 @@ struct TetStepRules
   /// #V: value of TetComplex::stamp() for each vertex at the last search that found no better
   /// position for the vertex. 0: no such search.
   std::vector<std::uint64_t> immovable_since;
+  /// #T: number of searches for the tet that found no step, since a vertex was last inserted near
+  /// the tet.
+  std::vector<std::uint8_t> failed_insertions;
   bool may_move_constrained = false; ///< true if held vertices may move
   bool insert = false; ///< true if vertices may be inserted
 };
@@ -59,6 +63,10 @@ struct TetStepRules
 /// only if a surface is given. The tets at v must have changed since the last search that found no
 /// better position.
 bool may_move(const TetComplex& tets, const TetStepRules& rules, Index v);
+
+/// Report whether a vertex may be inserted near tet t. After a few searches without success, more
+/// searches take most of the time and very few succeed.
+bool may_insert(const TetStepRules& rules, Index t);
 
 /// Finds steps that improve a tet. Each thread needs a separate object. The tets and the rules may
 /// change between two searches.
@@ -101,13 +109,14 @@ private:
 
   const Vec3& point(Index v) const { return this->tets_.point(v); }
   double quality(const Tet& tet);
+  double quality(const Facet& f, const Vec3& p);
   double penalty(double quality) const;
   Cost cost(const std::vector<Index>& tets) const;
   double minimum_quality_after(const Cost& cost) const;
 
   bool remove_edge(Index a, Index b, TetStep& step);
   bool may_swap_boundary(Index a, Index b, const Ring& ring) const;
-  bool remove_facet(Index t, Index a, Index b, Index c, TetStep& step);
+  bool remove_facet(Index t, int k, TetStep& step);
 
   bool move(Index v, TetStep& step);
   template <typename Items, typename QualityOf>
@@ -118,6 +127,7 @@ private:
 
   bool insert_near(Index t, TetStep& step);
   bool insert(Index t, Vec3 p, TetStep& step);
+  void sort_facets(TetCavity& cavity, const Vec3& p);
   double cavity_cost(
     const TetCavity& cavity, const Vec3& p, double minimum_quality, double upper_limit);
 
@@ -135,6 +145,7 @@ private:
   CavitySearch cavities_;
   Ring ring_;
   std::vector<Index> star_;
+  std::vector<std::pair<double, Facet>> ranked_facets_;
   Index evaluations_ = 0;
 };
 

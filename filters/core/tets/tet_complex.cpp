@@ -12,9 +12,14 @@ namespace bindpose
 
 namespace
 {
-/// If the quality is below this, the sign of a volume in doubles is not reliable. This quality
-/// corresponds to an angle of 0.001 degrees.
+// The sign of a volume in doubles is not reliable if the quality is below this (0.001 degrees), or
+// if the squared volume, relative to the squared lengths of three edges, is below this.
 constexpr double unreliable_quality = 3e-10;
+constexpr double unreliable_square = 1e-26;
+// Larger values are rounding errors: the quality of a regular tet is 8/9.
+constexpr double largest_quality = 0.9;
+// Quality of a tet whose dihedral angles cannot be computed in doubles.
+constexpr double least_quality = 1e-24;
 } // namespace
 
 TetComplex::TetComplex(TetMesh& mesh)
@@ -110,11 +115,14 @@ double TetComplex::quality(const Vec3& a, const Vec3& b, const Vec3& c, const Ve
   add(nb, nc, square * ad.squaredNorm(), lb * lc);
   add(nb, nd, square * ac.squaredNorm(), lb * ld);
   add(nc, nd, square * ab.squaredNorm(), lc * ld);
-  if (!(least >= unreliable_quality) && orientation_3d(a, b, c, d) <= 0)
+  // check_tets() makes the same two tests.
+  const bool is_reliable = least >= unreliable_quality &&
+    square > unreliable_square * ab.squaredNorm() * ac.squaredNorm() * ad.squaredNorm();
+  if (!is_reliable && (orientation_3d(a, b, c, d) <= 0 || !(tet_volume(a, b, c, d) > 0.0)))
   {
     return -1.0;
   }
-  return least;
+  return least <= largest_quality ? least : least_quality;
 }
 
 double TetComplex::quality_with(Index t, Index v, const Vec3& p) const

@@ -1,7 +1,9 @@
-// A tet mesh that is edited in place: its neighbors are those that a search of all tets finds.
+// A tet mesh that is edited in place: its neighbors are those that a search of all tets finds, and
+// the sign of a quality is the exact orientation.
 #include "tets/tet_complex.h"
 
 #include "geometry/tet_facets.h"
+#include "surface/triangle_predicates.h"
 
 #include "support/meshes.h"
 
@@ -74,4 +76,35 @@ TEST(TetComplex, NeighborsAreKeptThroughEdits)
     }
   }
   expect_searched_neighbors(tets);
+}
+
+TEST(TetComplex, SignOfQualityIsTheExactOrientation)
+{
+  // Four points near one line, found on a model of a laptop. All normals are rounding errors.
+  const Vec3 a(-5.1478699056915556, -1.3063412546580893, -12.391188381203319);
+  const Vec3 b(-5.0585415922571144, -1.3053896598353134, -12.391457456963652);
+  const Vec3 c(-4.9602727375294133, -1.3043428233978649, -12.391753463524015);
+  const Vec3 d(-5.0030401579462414, -1.3047984152957461, -12.391624639014477);
+  ASSERT_LT(orientation_3d(a, b, c, d), 0);
+  EXPECT_LT(TetComplex::quality(a, b, c, d), 0.0);
+
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const auto vector = [&] { return Vec3(uniform(random), uniform(random), uniform(random)); };
+  int negative = 0;
+  for (int i = 0; i < 2000; ++i)
+  {
+    // Points in a plane, and on a line, up to rounding.
+    const Vec3 p = vector(), u = vector(), v = i % 2 ? vector() : Vec3::Zero();
+    const auto point = [&]() -> Vec3 { return p + uniform(random) * u + uniform(random) * v; };
+    const Vec3 q = point(), r = point(), s = point();
+    const double quality = TetComplex::quality(p, q, r, s);
+    if (orientation_3d(p, q, r, s) <= 0)
+    {
+      EXPECT_LT(quality, 0.0);
+      ++negative;
+    }
+    EXPECT_LE(quality, 8.0 / 9.0 + 0.02);
+  }
+  EXPECT_GT(negative, 500);
 }

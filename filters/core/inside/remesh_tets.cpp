@@ -50,6 +50,10 @@ Status check_input(PointsView points, TrianglesView triangles, const RemeshOptio
   {
     return out_of_range("tet_limit", "at least 1000", options.tet_limit);
   }
+  if (!(options.thin_limit >= 0.0 && options.thin_limit <= 1.0))
+  {
+    return out_of_range("thin_limit", "from 0 to 1", options.thin_limit);
+  }
   Status limits = check_limits(options.time_limit, options.memory_limit);
   if (!limits.ok())
   {
@@ -167,7 +171,8 @@ Status remesh_tets(ExecutionContext& context, PointsView points, TrianglesView t
   MesherRequest request;
   request.arguments = { "remesh", "--threshold", exact_number(options.winding_threshold),
     "--smallest", exact_number(options.smallest_edge * diagonal), "--largest",
-    exact_number(options.largest_edge * diagonal), "--tets", exact_number(options.tet_limit) };
+    exact_number(options.largest_edge * diagonal), "--tets", exact_number(options.tet_limit),
+    "--thin", exact_number(options.thin_limit) };
   request.time_limit = options.time_limit;
   request.memory_limit = options.memory_limit;
   MesherResult answer;
@@ -178,6 +183,7 @@ Status remesh_tets(ExecutionContext& context, PointsView points, TrianglesView t
     data.triangles = triangles;
     status = run_mesher(context, request, data, answer);
   }
+  status.report = answer.report;
   if (!status.ok())
   {
     return status;

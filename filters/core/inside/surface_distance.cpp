@@ -72,11 +72,22 @@ bool measure(ExecutionContext& context, const std::vector<Sample>& samples,
   const bool completed = parallel_for(context, static_cast<Index>(samples.size()), block,
     [&](Index begin, Index end)
     {
+      constexpr double infinity = std::numeric_limits<double>::infinity();
+      double limit = infinity;
+      Vec3 last = Vec3::Zero();
       for (Index i = begin; i < end; ++i)
       {
         if (samples[i].weight > 0.0)
         {
-          distances[i] = tree.distance(samples[i].point, std::numeric_limits<double>::infinity());
+          // The distance increases at most by the way from the last sample, up to rounding errors.
+          limit += (samples[i].point - last).norm();
+          distances[i] = tree.distance(samples[i].point, limit);
+          if (distances[i] == infinity)
+          {
+            distances[i] = tree.distance(samples[i].point, infinity);
+          }
+          limit = distances[i];
+          last = samples[i].point;
         }
       }
     });
@@ -103,12 +114,14 @@ public:
   /// normal n, and there is no triangle at this end.
   bool is_on_cap(const Vec3& p, const Vec3& n, double reach) const
   {
+    const double maximum_distance = 1e-4 * this->region_.box().diagonal();
+    constexpr double error_fraction = 0.1;
+    const double bisections = std::log2(std::max(1.0, reach / (error_fraction * maximum_distance)));
     Vec3 end = p;
-    if (!this->region_.project_to_boundary(end, n, reach))
+    if (!this->region_.project_to_boundary(end, n, reach, static_cast<int>(std::ceil(bisections))))
     {
       return false;
     }
-    const double maximum_distance = 1e-4 * this->region_.box().diagonal();
     return !(this->tree_.distance(end, maximum_distance) <= maximum_distance);
   }
 

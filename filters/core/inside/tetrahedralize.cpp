@@ -1,11 +1,11 @@
 // Choice of the meshing method and check of its result.
 //
-// Method automatic tries cdt (cdt_tets.h), then remesh. Method remesh is Delaunay refinement
-// (remesh_tets.h). If the refinement fails, a lattice is cut (lattice_tets.h) and made finer while
-// its volume is wrong. The volume of the tets is compared with the volume of {w >= threshold}. If
-// no attempt has the right volume, the tets with the smallest misfit are used, with a warning. The
-// methods embed (embedding_tets.h), wrap (wrap_surface.h) and ftetwild (ftetwild_process.h) are not
-// part of this sequence. Method wrap fills its closed surface with tets in the same way as cdt.
+// Method automatic tries cdt (cdt_tets.h), then a cut lattice (lattice_tets.h), then Delaunay
+// refinement (remesh_tets.h), then a finer lattice. Method remesh is Delaunay refinement; if it
+// fails, a lattice is cut. The volume of the tets is compared with the volume of {w >= threshold}.
+// If no attempt has the right volume, the tets with the smallest misfit are used, with a warning.
+// The methods embed (embedding_tets.h), wrap (wrap_surface.h) and ftetwild (ftetwild_process.h) are
+// not part of this sequence. Method wrap fills its closed surface with tets in the same way as cdt.
 #include "inside/tetrahedralize.h"
 
 #include "base/number_text.h"
@@ -141,7 +141,7 @@ private:
     }
     if (this->options_.method == TetMethod::remesh)
     {
-      Status status = this->remesh(false);
+      Status status = this->remesh(this->remesh_resolution(), this->remesh_resolution());
       if (status.code == StatusCode::unavailable)
       {
         status.message +=
@@ -171,7 +171,7 @@ private:
     }
     if (status.ok() && this->options_.quality == 0.0)
     {
-      this->refinement_task_.reset(); // remesh is not needed
+      this->refinement_task_.reset(); // the refinement is not needed
     }
     if (status.ok() || status.code == StatusCode::canceled)
     {
@@ -182,7 +182,7 @@ private:
     const std::string cdt_failure = status.message;
     if (automatic)
     {
-      status = this->remesh(true);
+      status = this->replace_cdt();
       if (status.ok())
       {
         this->warn("method remesh replaced method cdt (" + cdt_failure +
@@ -309,7 +309,8 @@ private:
   Status improve_cdt_by_remesh()
   {
     const double angle = this->angle();
-    const Status status = this->keep_if_better([&] { return this->remesh(true); });
+    const Status status = this->keep_if_better(
+      [&] { return this->remesh(this->remesh_resolution(), this->finest_remesh_resolution()); });
     if (status.ok() && this->report_.text("method") == to_string(TetMethod::remesh))
     {
       this->warn("method remesh replaced method cdt (the smallest dihedral angle was " +
@@ -318,7 +319,31 @@ private:
     return status;
   }
 
-  Status remesh(bool allow_finer)
+  /// Compute tets after method cdt has failed. A cut lattice takes a second at most, and usually
+  /// has the right volume. If not, the Delaunay refinement follows, which resolves thinner parts
+  /// but takes ten times as long, and then a finer lattice.
+  Status replace_cdt()
+  {
+    const Index finest = this->finest_remesh_resolution();
+    const Index resolution = std::min(2 * this->remesh_resolution(), finest);
+    Status status;
+    {
+      const ProgressRange range(this->context_, 0.0, 0.3);
+      status = this->remesh_by_lattice(resolution, resolution);
+    }
+    if (status.code == StatusCode::canceled || (status.ok() && this->is_good_enough()))
+    {
+      this->refinement_task_.reset(); // the refinement is not needed
+      return status;
+    }
+    const ProgressRange range(this->context_, 0.3, 1.0);
+    const auto refine = [&] { return this->remesh(2 * resolution, finest); };
+    return status.ok() ? this->keep_if_better(refine) : refine();
+  }
+
+  /// Run the Delaunay refinement. If it fails or its angles are too small, cut lattices of `first`
+  /// to `last` cubes (none if last < first).
+  Status remesh(Index first, Index last)
   {
     Status refined;
     {
@@ -329,21 +354,32 @@ private:
     {
       return refined;
     }
+    // A finer lattice does not resolve a region that is too thin for the refinement and of which a
+    // coarser lattice contains less than half.
+    const bool coarser_was_cut = first > this->remesh_resolution();
+    const bool is_too_thin = refined.report.number("thin_fraction", 0.0) > thin_limit &&
+      coarser_was_cut && this->lattice_misfit_ > maximum_misfit;
+    if (last < first || is_too_thin)
+    {
+      return refined.ok() || !coarser_was_cut ? refined : this->lattice_status_;
+    }
     const ProgressRange range(this->context_, 0.7, 1.0);
-    const auto cut = [&] { return this->remesh_by_lattice(allow_finer); };
+    const auto cut = [&] { return this->remesh_by_lattice(first, last); };
     return refined.ok() ? this->keep_if_better(cut) : cut();
   }
 
-  Status remesh_by_lattice(bool allow_finer)
+  /// Cut lattices of `first` cubes along the longest side, of twice as many, and so on up to
+  /// `last`, until one has the right volume.
+  Status remesh_by_lattice(Index first, Index last)
   {
-    constexpr double maximum_cubes = 4e6;
-    for (Index resolution = this->remesh_resolution();; resolution *= 2)
+    Status status;
+    for (Index resolution = first; resolution <= last; resolution *= 2)
     {
       const double start = this->context_.elapsed_seconds();
       const Phase phase(this->context_, "lattice", 0.0, 0.9);
       const Lattice lattice = Lattice::around(this->box_, resolution);
       TetMesh& mesh = this->result_.mesh;
-      Status status = stuff_lattice(this->context_, this->inside_.winding(), lattice, this->box_,
+      status = stuff_lattice(this->context_, this->inside_.winding(), lattice, this->box_,
         this->options_.winding_threshold, mesh);
       if (!status.ok())
       {
@@ -371,24 +407,37 @@ private:
       this->log("lattice of " + std::to_string(resolution) + " cubes, cut", start, status);
       if (status.ok())
       {
-        break;
+        return this->finish_remeshed(TetMethod::remesh);
       }
-      const double finer_cubes = 8.0 * static_cast<double>(lattice.cubes[0]) *
-        static_cast<double>(lattice.cubes[1]) * static_cast<double>(lattice.cubes[2]);
-      constexpr Index maximum_refinement = 4; // finest resolution divided by remesh_resolution()
-      if (!allow_finer || this->inside_.volume() <= 0.0 || finer_cubes > maximum_cubes ||
-        resolution >= maximum_refinement * this->remesh_resolution())
-      {
-        return status;
-      }
+      this->lattice_status_ = status;
     }
-    return this->finish_remeshed(TetMethod::remesh);
+    return status;
   }
 
   Index remesh_resolution() const
   {
     constexpr Index automatic = 40;
     return this->options_.resolution == 0 ? automatic : this->options_.resolution;
+  }
+
+  /// Return the resolution of the finest lattice to try: one, two or four times
+  /// remesh_resolution().
+  Index finest_remesh_resolution() const
+  {
+    constexpr double maximum_cubes = 4e6;
+    const auto is_small_enough = [&](Index resolution)
+    {
+      const std::array<Index, 3> cubes = Lattice::around(this->box_, resolution).cubes;
+      return static_cast<double>(cubes[0]) * static_cast<double>(cubes[1]) *
+        static_cast<double>(cubes[2]) <=
+        maximum_cubes;
+    };
+    Index resolution = this->remesh_resolution();
+    for (int k = 0; k < 2 && this->inside_.volume() > 0.0 && is_small_enough(2 * resolution); ++k)
+    {
+      resolution *= 2;
+    }
+    return resolution;
   }
 
   /// If method cdt takes long, start the Delaunay refinement in parallel, because method cdt may
@@ -432,6 +481,7 @@ private:
       constexpr double maximum_limit = 14.0;
       options.time_limit = std::min({ options.time_limit, maximum_limit,
         base_limit + seconds_per_triangle * static_cast<double>(this->surface_.triangles.rows()) });
+      options.thin_limit = thin_limit;
     }
     this->refinement_.status = remesh_tets(context, this->surface_.points, this->surface_.triangles,
       this->inside_.winding(), options, this->refinement_.result);
@@ -777,6 +827,9 @@ private:
 
   /// Largest misfit of a usable result: a factor of two in volume.
   static constexpr double maximum_misfit = 0.6931471805599453;
+  /// Of the furniture models whose thin_fraction (see RemeshOptions) is larger than this, none got
+  /// tets of the right volume from the Delaunay refinement.
+  static constexpr double thin_limit = 0.8;
   /// Threshold for the interior of a wrap. It does not depend on the options, because a wrap of any
   /// surface has the winding number 1 inside.
   static constexpr double wrap_threshold = 0.5;
@@ -798,6 +851,7 @@ private:
   /// Lattice tets with the smallest misfit so far. They are used if no attempt has the right
   /// volume.
   TetMesh lattice_mesh_;
+  Status lattice_status_; ///< the reason why the tets of the last lattice were not used
   double lattice_misfit_ = std::numeric_limits<double>::infinity();
   /// Result of run_refinement().
   struct Refinement

@@ -154,7 +154,10 @@ struct TetrahedralizeResult
 /// - **ftetwild** runs the program fTetWild on the surface, if it is installed
 ///   (ftetwild_process.h). winding_threshold must be 0.5. No input vertex is kept.
 ///
-/// Method automatic never uses embed, wrap or ftetwild.
+/// Method automatic tries cdt. If it fails, the following attempts are made until one has the right
+/// volume: cut a lattice of twice the resolution; Delaunay refinement as in remesh; cut a lattice
+/// of four times the resolution. The report then contains remesh as the method. Method automatic
+/// never uses embed, wrap or ftetwild.
 ///
 /// Orientation is repaired first (repair_surface); a warning reports the flipped parts.
 ///

@@ -18,6 +18,7 @@
 #include "mesher/circumcenter_traits.h"
 #include "mesher/jobs.h"
 
+#include "base/number_text.h"
 #include "base/stopwatch.h"
 #include "inside/crease_points.h"
 #include "inside/sizing_field.h"
@@ -162,6 +163,13 @@ private:
   BoundedCellCriteria cells_;
 };
 
+/// Return the fraction of the boundary's area whose sites request the smallest edge length.
+double thin_fraction(const BoundarySites& sites, double smallest_edge)
+{
+  return (sites.lengths.array() <= smallest_edge).select(sites.areas.array(), 0.0).sum() /
+    sites.areas.sum();
+}
+
 /// Create the sizing field. Increase options.smallest_edge until the expected number of tets is at
 /// most options.tet_limit.
 SizingField make_field(const BoundarySites& sites, RemeshJobOptions& options)
@@ -271,6 +279,14 @@ std::string remesh(MesherData& data, RemeshJobOptions options)
   {
     data = MesherData(); // the surface encloses no volume
     return {};
+  }
+  const double thin = thin_fraction(sites, options.smallest_edge);
+  report_value("thin_fraction", thin);
+  if (thin > options.thin_limit)
+  {
+    constexpr double percent = 100.0;
+    return short_number(percent * thin) +
+      " % of the boundary's area bounds parts or gaps that are thinner than the shortest edge";
   }
   const SizingField field = make_field(sites, options);
   const CreasePoints creases = find_creases(region, field);

@@ -66,7 +66,7 @@ double RegionBoundary::thickness(Index f, const Vec3& p, double smallest, double
   return largest;
 }
 
-bool RegionBoundary::project_to_boundary(Vec3& p, const Vec3& n, double reach) const
+bool RegionBoundary::project_to_boundary(Vec3& p, const Vec3& n, double reach, int bisections) const
 {
   double inside = -reach;
   double outside = reach;
@@ -74,8 +74,7 @@ bool RegionBoundary::project_to_boundary(Vec3& p, const Vec3& n, double reach) c
   {
     return false;
   }
-  constexpr int steps = 20;
-  for (int s = 0; s < steps; ++s)
+  for (int k = 0; k < bisections; ++k)
   {
     const double middle = 0.5 * (inside + outside);
     (this->contains(p + middle * n) ? inside : outside) = middle;

@@ -38,9 +38,9 @@ public:
   /// lengths, or `largest` if no tested distance does.
   double thickness(Index f, const Vec3& p, double smallest, double largest) const;
   /// Move p along the unit vector n onto the boundary of the region, by at most `reach` in either
-  /// direction. The error is 2^-20 times `reach`. n points outwards. @return true if p - reach n is
-  /// inside and p + reach n is outside; otherwise p does not change.
-  bool project_to_boundary(Vec3& p, const Vec3& n, double reach) const;
+  /// direction, in `bisections` steps. The error is 2^-bisections times `reach`. n points outwards.
+  /// @return true if p - reach n is inside and p + reach n is outside; otherwise p does not change.
+  bool project_to_boundary(Vec3& p, const Vec3& n, double reach, int bisections = 20) const;
   /// Return the unit normal, or zero for a triangle without area.
   Vec3 normal(Index f) const;
   Vec3 corner(Index f, int k) const { return this->points_.row(this->triangles_(f, k)); }

@@ -166,11 +166,14 @@ private:
       for (Index i = this->first_of_part_[part]; i < this->first_of_part_[part + 1]; ++i)
       {
         const Id atom = this->atoms_of_part_[i];
-        side->positions.push_back(this->atoms_.lattice_position(atom));
+        MaterialProbes::End probe_end{ this->atoms_.lattice_position(atom), Vec3::Zero() };
         if (atom >= this->atoms_.first_piece)
         {
           triangles.push_back(this->cover_.pieces[atom - this->atoms_.first_piece].triangle);
+          const std::array<Vec3, 3> t = this->cover_.corners_of(triangles.back());
+          probe_end.normal = (t[1] - t[0]).cross(t[2] - t[0]).stableNormalized();
         }
+        side->ends.push_back(probe_end);
       }
     }
     this->probes_.connect(std::move(sides), std::move(triangles), joined);

@@ -24,11 +24,19 @@ public:
   {
   }
 
+  /// A position at which probes may end.
+  struct End
+  {
+    Vec3 position; ///< unit: edge length of a cube
+    /// Unit normal of the triangle that contains the position; zero if the position is a sample of
+    /// the inside, or if the triangle has no area.
+    Vec3 normal;
+  };
   /// The atoms of one copy of a lattice node.
   struct Side
   {
     Id root; ///< identifies the copy (root of its union-find class)
-    std::vector<Vec3> positions; ///< one position in each atom; unit: edge length of a cube
+    std::vector<End> ends; ///< one position in each atom
   };
   /// Find the copies of one node that probes connect. For each connection, append the roots of the
   /// two copies to `joined`.
@@ -44,9 +52,14 @@ private:
   /// triangles that can cross the segment.
   bool stays_inside(const Vec3& a, const Vec3& b, const std::vector<Id>& triangles,
     std::vector<double>& cuts) const;
-  /// Test the 12 shortest segments between two sets of positions. Report whether one of them is
+  /// Report whether the segment between two ends is completely in the material. A segment in the
+  /// plane of the triangle at an end is moved to both sides of the plane, by a millionth of a cube:
+  /// on triangles, winding numbers are mean values of both sides, and take much longer.
+  bool connects(const End& from, const End& to, const std::vector<Id>& triangles,
+    std::vector<double>& cuts) const;
+  /// Test the 12 shortest segments between two sets of ends. Report whether one of them is
   /// completely in the material.
-  bool connects(const std::vector<Vec3>& from, const std::vector<Vec3>& to,
+  bool connects(const std::vector<End>& from, const std::vector<End>& to,
     const std::vector<Id>& triangles, std::vector<double>& cuts) const;
 
   const LatticeCover& cover_;

@@ -254,7 +254,7 @@ bool Interior::contains(const Vec3& p) const
 
 bool Interior::has_clearance(const Vec3& p, double distance) const
 {
-  return this->tree_->distance(p, distance) > distance;
+  return !this->tree_->is_within(p, distance);
 }
 
 double Interior::estimate_layer_cells(const SizingField& sizes) const

@@ -122,7 +122,7 @@ public:
     {
       return false;
     }
-    return !(this->tree_.distance(end, maximum_distance) <= maximum_distance);
+    return !this->tree_.is_within(end, maximum_distance);
   }
 
 private:

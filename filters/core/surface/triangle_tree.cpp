@@ -13,6 +13,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 namespace bindpose
 {
@@ -99,25 +100,28 @@ Box TriangleTree::build(std::vector<Item>& items, Index begin, Index end)
   return box;
 }
 
-double TriangleTree::distance(const Vec3& p, double limit, Vec3* nearest) const
+/// Call at_triangle(closest point, squared distance) for the triangles of all leaves whose boxes
+/// are within squared_limit, nearer boxes first. at_triangle() may lower squared_limit. The search
+/// ends when it returns false.
+template <typename AtTriangle>
+void TriangleTree::search(
+  const Vec3& p, const double& squared_limit, const AtTriangle& at_triangle) const
 {
-  double best = limit * limit;
-  bool found = false;
   // Each child contains half of the triangles of its parent, so the tree is never deeper than this.
-  std::array<Index, 128> stack;
+  std::array<std::pair<Index, double>, 128> stack; // nodes and their squared distances
   std::size_t top = 0;
   if (!this->nodes_.empty())
   {
-    stack[top++] = 0;
+    stack[top++] = { 0, squared_distance(this->nodes_[0].box, p) };
   }
   while (top > 0)
   {
-    const Index at = stack[--top];
-    const Node& node = this->nodes_[at];
-    if (squared_distance(node.box, p) > best)
+    const auto [at, squared] = stack[--top];
+    if (squared > squared_limit)
     {
       continue;
     }
+    const Node& node = this->nodes_[at];
     if (node.right < 0)
     {
       for (Index i = node.begin; i < node.end; ++i)
@@ -125,27 +129,57 @@ double TriangleTree::distance(const Vec3& p, double limit, Vec3* nearest) const
         const auto t = this->triangles_.row(this->order_[i]);
         const Vec3 closest = closest_point(
           p, this->points_.row(t[0]), this->points_.row(t[1]), this->points_.row(t[2]));
-        const double d = (closest - p).squaredNorm();
-        if (d <= best)
+        if (!at_triangle(closest, (closest - p).squaredNorm()))
         {
-          best = d;
-          found = true;
-          if (nearest)
-          {
-            *nearest = closest;
-          }
+          return;
         }
       }
       continue;
     }
     // Push the nearer child last, so that it is visited first.
-    const Index left = at + 1;
-    const bool is_left_nearer = squared_distance(this->nodes_[left].box, p) <=
-      squared_distance(this->nodes_[node.right].box, p);
-    stack[top++] = is_left_nearer ? node.right : left;
-    stack[top++] = is_left_nearer ? left : node.right;
+    std::pair<Index, double> near{ at + 1, squared_distance(this->nodes_[at + 1].box, p) };
+    std::pair<Index, double> far{ node.right, squared_distance(this->nodes_[node.right].box, p) };
+    if (far.second < near.second)
+    {
+      std::swap(near, far);
+    }
+    stack[top++] = far;
+    stack[top++] = near;
   }
+}
+
+double TriangleTree::distance(const Vec3& p, double limit, Vec3* nearest) const
+{
+  double best = limit * limit;
+  bool found = false;
+  this->search(p, best,
+    [&](const Vec3& closest, double squared)
+    {
+      if (squared <= best)
+      {
+        best = squared;
+        found = true;
+        if (nearest)
+        {
+          *nearest = closest;
+        }
+      }
+      return true;
+    });
   return found ? std::sqrt(best) : std::numeric_limits<double>::infinity();
+}
+
+bool TriangleTree::is_within(const Vec3& p, double limit) const
+{
+  const double squared_limit = limit * limit;
+  bool found = false;
+  this->search(p, squared_limit,
+    [&](const Vec3&, double squared)
+    {
+      found = squared <= squared_limit;
+      return !found;
+    });
+  return found;
 }
 
 /// Visit the tree from the root. Subtrees for which `enter` returns false are skipped. The visit

@@ -24,6 +24,9 @@ public:
   /// @param nearest  if not null, set to the nearest point on the surface; unchanged if the
   /// distance is above `limit`
   double distance(const Vec3& p, double limit, Vec3* nearest = nullptr) const;
+  /// Report whether the distance from p to the surface is at most `limit`. This is faster than
+  /// distance(), because the search ends at the first triangle within the limit. Thread-safe.
+  bool is_within(const Vec3& p, double limit) const;
 
   /// Report whether the segment from a to b intersects a triangle for which accept() returns true.
   /// Thread-safe.
@@ -50,6 +53,9 @@ public:
   const std::vector<Index>& order() const { return this->order_; }
 
 private:
+  template <typename AtTriangle>
+  void search(const Vec3& p, const double& squared_limit, const AtTriangle& at_triangle) const;
+
   struct Item
   {
     Vec3 center;

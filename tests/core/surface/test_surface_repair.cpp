@@ -380,6 +380,8 @@ TEST(SurfaceRepair, TreeDistancesAreBruteForce)
     }
     EXPECT_DOUBLE_EQ(tree.distance(p, 10.0), nearest);
     EXPECT_TRUE(std::isinf(tree.distance(p, 0.5 * nearest)));
+    EXPECT_TRUE(tree.is_within(p, 1.0001 * nearest));
+    EXPECT_FALSE(tree.is_within(p, 0.9999 * nearest));
   }
 }
 

@@ -367,9 +367,9 @@ TEST(FuzzPoses, ReducedArap)
           ASSERT_GT(r.determinant(), 0.0);
         }
         // Round-off is proportional to the largest summands, which grow with the square of the
-        // pose's size.
+        // pose's size. The largest of a million errors was 1.1e-12.
         const double size = size_of_pose(pose);
-        const double relative_tolerance = options.mixed_precision ? 1e-6 : 1e-12;
+        const double relative_tolerance = options.mixed_precision ? 1e-6 : 1e-11;
         const double unit = relative_tolerance * arap.rest_energy() * size * size;
         for (std::size_t i = 1; i < arap.energies().size(); ++i)
         {

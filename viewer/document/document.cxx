@@ -581,6 +581,18 @@ void Document::set_options(const Options& values, const QString& key)
   }
 }
 
+bool Document::has_step_of(const QString& key) const
+{
+  for (int i = 0; i < this->history_->count(); ++i)
+  {
+    if (static_cast<const Edit*>(this->history_->command(i))->changes_option(key))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 void Document::set_option_without_undo(const QString& key, const QVariant& value)
 {
   const OptionInfo* option = find_option(key);

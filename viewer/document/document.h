@@ -137,8 +137,11 @@ public:
   void set_option(const QString& key, const QVariant& value);
   /// Set several options as one undo step. It has the same name as a change of option `key`.
   void set_options(const Options& values, const QString& key);
-  /// Set an option that the program itself has chosen, without an undo step.
+  /// Set an option that the program itself has chosen, without an undo step. Undo and redo of steps
+  /// that change the same option do not restore this value (see has_step_of).
   void set_option_without_undo(const QString& key, const QVariant& value);
+  /// Report whether a step of the history, undone or not, changes an option.
+  bool has_step_of(const QString& key) const;
   /// Prevent the next undo step from merging with the previous one.
   void end_merge() { ++this->merge_group_; }
 

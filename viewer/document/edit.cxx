@@ -29,3 +29,8 @@ bool Edit::mergeWith(const QUndoCommand* next)
   this->setObsolete(differences(this->before_, this->after_) == 0);
   return true;
 }
+
+bool Edit::changes_option(const QString& key) const
+{
+  return this->before_.options.value(key) != this->after_.options.value(key);
+}

@@ -23,6 +23,8 @@ public:
   void redo() override;
   int id() const override { return this->merge_.isEmpty() ? -1 : 1; }
   bool mergeWith(const QUndoCommand* next) override;
+  /// Report whether the step changes an option.
+  bool changes_option(const QString& key) const;
 
 private:
   Work before_;

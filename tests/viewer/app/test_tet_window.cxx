@@ -190,6 +190,23 @@ TEST_F(TetWindow, AChosenCutStaysForOtherTets)
   EXPECT_EQ(this->view()->plane()->orientation(), app::view::PlaneHandle::y_axis);
 }
 
+/// Otherwise redo would bring back a side that does not belong to the plane.
+TEST_F(TetWindow, AChosenSideOfTheCutStaysForOtherTets)
+{
+  this->open(to_tet_grid(test::tet_box(3, 3, 3, Vec3(-1, -1, -0.5), Vec3(1, 1, 0.5))));
+  this->find<QCheckBox>("Keep the other side")->click();
+  const bool side = this->window.document()->option("tets.other_side").toBool();
+  this->open(to_tet_grid(test::tet_box(3, 3, 3, Vec3(-0.5, -1, -1), Vec3(0.5, 1, 1))));
+  EXPECT_EQ(this->view()->plane()->orientation(), app::view::PlaneHandle::z_axis);
+  EXPECT_EQ(this->window.document()->option("tets.other_side").toBool(), side);
+  QUndoStack* history = this->window.document()->history();
+  const int index = history->index();
+  history->setIndex(0);
+  history->setIndex(index);
+  EXPECT_EQ(this->view()->plane()->orientation(), app::view::PlaneHandle::z_axis);
+  EXPECT_EQ(this->window.document()->option("tets.other_side").toBool(), side);
+}
+
 /// Tets and defects have no pose. While they are visible, the shape and the handles are at rest.
 TEST_F(TetWindow, NothingIsPosedAroundTetsAtRest)
 {

@@ -986,7 +986,7 @@ void MainWindow::show_state()
 }
 
 /// Orient the cutting planes perpendicular to the axis that is nearest to the line of sight, so
-/// that a cut shows the inside. An orientation that the user has chosen is kept.
+/// that a cut shows the inside. An orientation or a side that the user has chosen is kept.
 void MainWindow::orient_planes()
 {
   const Vec3 view_direction(
@@ -999,13 +999,16 @@ void MainWindow::orient_planes()
     int& automatic_orientation =
       this->automatic_orientations_.try_emplace(name, find_option(key)->initial.toInt())
         .first->second;
-    if (this->document_->number(key) == automatic_orientation)
+    const QString side = "tets.other_side";
+    const bool has_side = name == "tets";
+    if (this->document_->number(key) == automatic_orientation &&
+      !this->document_->has_step_of(key) && !(has_side && this->document_->has_step_of(side)))
     {
       automatic_orientation = axis;
       this->links_->set_without_undo(key, axis);
-      if (name == "tets")
+      if (has_side)
       {
-        this->links_->set_without_undo("tets.other_side", view_direction[axis] > 0.0);
+        this->links_->set_without_undo(side, view_direction[axis] > 0.0);
       }
     }
   }

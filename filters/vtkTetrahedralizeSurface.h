@@ -56,8 +56,9 @@
  *   BINDPOSE_FTETWILD. Its tets are well shaped and within FtetwildEpsilon of the surface; no point
  *   is kept; WindingThreshold must be 0.5. Files are exchanged in a temporary folder, which is
  *   always removed. A run usually takes minutes.
- * - AUTO (default) tries CDT. If that fails, it tries tets that do not keep the triangles: a cut
- *   lattice of 80 cubes, REMESH, and a lattice of 160 cubes. It never uses another method.
+ * - AUTO (default) tries CDT. If that fails, it tries tets that do not keep the triangles until one
+ *   attempt has the right volume: a cut lattice of twice the Resolution, Delaunay refinement as in
+ *   REMESH, and a lattice of four times the Resolution. It never uses another method.
  *
  * Report: method, rungs[].{name, seconds, outcome} (all methods that were tried and why they were
  * rejected), counts.{vertices, triangles, duplicate_vertices, unreferenced_vertices,

@@ -21,7 +21,8 @@
 // 6. If the tets around a node contain only a thin slice of material, no line between samples may
 //    be in the slice. Therefore, nodes with several copies are tested again. Straight probes run
 //    from the atoms of one copy to the nearest atoms of another copy, and are tested against all
-//    triangles around the node (material_probes.h).
+//    triangles around the node. A probe in the plane of a triangle is tested beside the plane
+//    (material_probes.h).
 // 7. Parts of a tet with the same four copies of nodes become one tet.
 //
 // Every union keeps the smaller id, so the result does not depend on the order or the number of

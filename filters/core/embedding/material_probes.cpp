@@ -43,7 +43,7 @@ bool find_intersection(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& 
 }
 
 /// Report whether a direction is parallel to the plane with the unit normal `normal`, up to
-/// rounding errors. A zero normal has no plane.
+/// rounding errors. Return false for a zero normal.
 bool is_parallel(const Vec3& normal, const Vec3& direction)
 {
   constexpr double rounding = 1e-9;
@@ -60,8 +60,9 @@ bool MaterialProbes::stays_inside(
     const Vec3 p = this->cover_.lattice.world_point(a + t * (b - a));
     return this->winding_.evaluate_at(p) >= this->threshold_;
   };
-  // Position of a test in its interval. In symmetric models, the middle is often on a triangle, or
-  // on a cap of an opening, where a winding number takes a thousand times longer.
+  // Position of a test point, as a fraction of its interval. In symmetric models, the middle is
+  // often on a triangle, or on a cap of an opening, where a winding number takes a hundred times
+  // longer or more.
   constexpr double near_middle = 0.4717;
   // Most probes are rejected by this test.
   if (length > LineCrossing::merge_distance && !inside_at(near_middle))

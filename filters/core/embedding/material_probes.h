@@ -36,14 +36,15 @@ public:
   struct Side
   {
     Id root; ///< identifies the copy (root of its union-find class)
-    std::vector<End> ends; ///< one position in each atom
+    std::vector<End> ends; ///< one end per atom
   };
   /// Find the copies of one node that probes connect. For each connection, append the roots of the
   /// two copies to `joined`.
   /// @param sides all copies of the node.
   /// @param triangles all triangles in the tets around the node; duplicates are allowed.
-  /// Cost: up to 12 probes per pair of copies. Each probe takes at least one winding number per
-  /// interval between its crossings with triangles, and 12 per cube edge of its length.
+  /// Cost: up to 12 probes per pair of copies, or 24 in a common plane. Each probe takes at least
+  /// one winding number per interval between its crossings with triangles, and 12 per cube edge of
+  /// its length.
   void connect(std::vector<Side> sides, std::vector<Id> triangles,
     std::vector<std::pair<Id, Id>>& joined) const;
 
@@ -52,9 +53,10 @@ private:
   /// triangles that can cross the segment.
   bool stays_inside(const Vec3& a, const Vec3& b, const std::vector<Id>& triangles,
     std::vector<double>& cuts) const;
-  /// Report whether the segment between two ends is completely in the material. A segment in the
-  /// plane of the triangle at an end is moved to both sides of the plane, by a millionth of a cube:
-  /// on triangles, winding numbers are mean values of both sides, and take much longer.
+  /// Report whether the segment between two ends is completely in the material. If the segment lies
+  /// in the plane of the triangle at an end, test two copies of the segment, shifted by 1e-6 cubes
+  /// to either side: on a triangle, the winding number is the mean of both sides, so rounding
+  /// errors would decide.
   bool connects(const End& from, const End& to, const std::vector<Id>& triangles,
     std::vector<double>& cuts) const;
   /// Test the 12 shortest segments between two sets of ends. Report whether one of them is

@@ -50,9 +50,9 @@ Status check_input(PointsView points, TrianglesView triangles, const RemeshOptio
   {
     return out_of_range("tet_limit", "at least 1000", options.tet_limit);
   }
-  if (!(options.thin_limit >= 0.0 && options.thin_limit <= 1.0))
+  if (!(options.maximum_thin_fraction >= 0.0 && options.maximum_thin_fraction <= 1.0))
   {
-    return out_of_range("thin_limit", "from 0 to 1", options.thin_limit);
+    return out_of_range("maximum_thin_fraction", "from 0 to 1", options.maximum_thin_fraction);
   }
   Status limits = check_limits(options.time_limit, options.memory_limit);
   if (!limits.ok())
@@ -172,7 +172,7 @@ Status remesh_tets(ExecutionContext& context, PointsView points, TrianglesView t
   request.arguments = { "remesh", "--threshold", exact_number(options.winding_threshold),
     "--smallest", exact_number(options.smallest_edge * diagonal), "--largest",
     exact_number(options.largest_edge * diagonal), "--tets", exact_number(options.tet_limit),
-    "--thin", exact_number(options.thin_limit) };
+    "--thin", exact_number(options.maximum_thin_fraction) };
   request.time_limit = options.time_limit;
   request.memory_limit = options.memory_limit;
   MesherResult answer;

@@ -26,9 +26,9 @@ struct RemeshOptions
   /// Maximum expected number of tets, >= 1000. If more tets are expected, smallest_edge is
   /// increased.
   double tet_limit = 5e5;
-  /// Maximum fraction of the boundary's area, 0 … 1, at which the region, or the gap next to it, is
+  /// Maximum fraction (0 … 1) of the boundary's area where the region, or the gap next to it, is
   /// thinner than smallest_edge. If the fraction is larger, remesh_tets() fails before it refines.
-  double thin_limit = 1.0;
+  double maximum_thin_fraction = 1.0;
   double time_limit = 60.0; ///< seconds (> 0) after which the helper is killed
   Index memory_limit = 0; ///< largest address space of the helper in MiB, 0: no limit
 };
@@ -52,14 +52,14 @@ struct RemeshResult
 /// parts, inner walls) are ignored. Creases sharper than 30 degrees are kept, except the edges at
 /// which surfaces cross.
 ///
-/// The report contains the counts of the helper, seconds.*, thin_fraction (see thin_limit; also if
-/// this limit was exceeded), counts.kept_vertices, counts.boundary_vertices, distance_max and
-/// distance_mean (percent of the bounding-box diagonal).
+/// The report contains the counts of the helper, seconds.*, thin_fraction (see
+/// maximum_thin_fraction; also if this limit was exceeded), counts.kept_vertices,
+/// counts.boundary_vertices, distance_max and distance_mean (percent of the bounding-box diagonal).
 ///
 /// Return invalid_input if a coordinate is not finite, an id is out of range, the surface is flat,
 /// an option is out of range, or the surface encloses no volume; unavailable if there is no helper;
-/// internal_error if the helper failed, or exceeded its time limit or thin_limit. Cost: 50 us per
-/// tet.
+/// internal_error if the helper failed, or exceeded its time limit or maximum_thin_fraction. Cost:
+/// 50 us per tet.
 Status remesh_tets(ExecutionContext& context, PointsView points, TrianglesView triangles,
   const WindingNumber& winding, const RemeshOptions& options, RemeshResult& result);
 

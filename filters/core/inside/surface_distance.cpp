@@ -79,7 +79,8 @@ bool measure(ExecutionContext& context, const std::vector<Sample>& samples,
       {
         if (samples[i].weight > 0.0)
         {
-          // The distance increases at most by the way from the last sample, up to rounding errors.
+          // The distance grows by at most the distance between two consecutive samples. If rounding
+          // errors exclude the nearest triangle, search without a limit.
           limit += (samples[i].point - last).norm();
           distances[i] = tree.distance(samples[i].point, limit);
           if (distances[i] == infinity)

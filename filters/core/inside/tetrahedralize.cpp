@@ -141,7 +141,7 @@ private:
     }
     if (this->options_.method == TetMethod::remesh)
     {
-      Status status = this->remesh(this->remesh_resolution(), this->remesh_resolution());
+      Status status = this->remesh(this->remesh_resolution());
       if (status.code == StatusCode::unavailable)
       {
         status.message +=
@@ -260,7 +260,7 @@ private:
   /// lattice tets.
   Status use_lattice_tets(const Status& status)
   {
-    if (this->lattice_misfit_ > maximum_misfit || status.code == StatusCode::canceled)
+    if (!this->lattice_is_usable() || status.code == StatusCode::canceled)
     {
       return status;
     }
@@ -309,8 +309,8 @@ private:
   Status improve_cdt_by_remesh()
   {
     const double angle = this->angle();
-    const Status status = this->keep_if_better(
-      [&] { return this->remesh(this->remesh_resolution(), this->finest_remesh_resolution()); });
+    const Status status =
+      this->keep_if_better([&] { return this->remesh(this->finest_remesh_resolution()); });
     if (status.ok() && this->report_.text("method") == to_string(TetMethod::remesh))
     {
       this->warn("method remesh replaced method cdt (the smallest dihedral angle was " +
@@ -320,30 +320,50 @@ private:
   }
 
   /// Compute tets after method cdt has failed. A cut lattice takes a second at most, and usually
-  /// has the right volume. If not, the Delaunay refinement follows, which resolves thinner parts
-  /// but takes ten times as long, and then a finer lattice.
+  /// has the right volume. If the volume is wrong, run the Delaunay refinement, which takes ten
+  /// times as long. If that fails, cut a finer lattice.
   Status replace_cdt()
   {
     const Index finest = this->finest_remesh_resolution();
     const Index resolution = std::min(2 * this->remesh_resolution(), finest);
-    Status status;
+    Status cut;
     {
       const ProgressRange range(this->context_, 0.0, 0.3);
-      status = this->remesh_by_lattice(resolution, resolution);
+      cut = this->remesh_by_lattice(resolution, resolution);
     }
-    if (status.code == StatusCode::canceled || (status.ok() && this->is_good_enough()))
+    if (cut.code == StatusCode::canceled || (cut.ok() && this->is_good_enough()))
     {
       this->refinement_task_.reset(); // the refinement is not needed
-      return status;
+      return cut;
     }
     const ProgressRange range(this->context_, 0.3, 1.0);
-    const auto refine = [&] { return this->remesh(2 * resolution, finest); };
-    return status.ok() ? this->keep_if_better(refine) : refine();
+    Status refined;
+    const auto refine = [&]
+    {
+      const Phase phase(this->context_, "remesh", 0.0, 0.7);
+      refined = this->remesh_by_refinement();
+      return refined;
+    };
+    if (cut.ok())
+    {
+      return this->keep_if_better(refine);
+    }
+    refine();
+    // A region that is too thin for the refinement is too thin for the finer lattice, unless the
+    // coarser lattice contains half of its volume.
+    const bool is_too_thin = refined.report.number("thin_fraction", 0.0) > maximum_thin_fraction &&
+      !this->lattice_is_usable();
+    if (refined.ok() || refined.code == StatusCode::canceled)
+    {
+      return refined;
+    }
+    const ProgressRange lattice_range(this->context_, 0.7, 1.0);
+    return is_too_thin || finest == resolution ? cut : this->remesh_by_lattice(finest, finest);
   }
 
-  /// Run the Delaunay refinement. If it fails or its angles are too small, cut lattices of `first`
-  /// to `last` cubes (none if last < first).
-  Status remesh(Index first, Index last)
+  /// Run the Delaunay refinement. If it fails or its angles are too small, cut lattices of
+  /// remesh_resolution() to `finest` cubes.
+  Status remesh(Index finest)
   {
     Status refined;
     {
@@ -354,17 +374,8 @@ private:
     {
       return refined;
     }
-    // A finer lattice does not resolve a region that is too thin for the refinement and of which a
-    // coarser lattice contains less than half.
-    const bool coarser_was_cut = first > this->remesh_resolution();
-    const bool is_too_thin = refined.report.number("thin_fraction", 0.0) > thin_limit &&
-      coarser_was_cut && this->lattice_misfit_ > maximum_misfit;
-    if (last < first || is_too_thin)
-    {
-      return refined.ok() || !coarser_was_cut ? refined : this->lattice_status_;
-    }
     const ProgressRange range(this->context_, 0.7, 1.0);
-    const auto cut = [&] { return this->remesh_by_lattice(first, last); };
+    const auto cut = [&] { return this->remesh_by_lattice(this->remesh_resolution(), finest); };
     return refined.ok() ? this->keep_if_better(cut) : cut();
   }
 
@@ -375,44 +386,57 @@ private:
     Status status;
     for (Index resolution = first; resolution <= last; resolution *= 2)
     {
-      const double start = this->context_.elapsed_seconds();
       const Phase phase(this->context_, "lattice", 0.0, 0.9);
-      const Lattice lattice = Lattice::around(this->box_, resolution);
-      TetMesh& mesh = this->result_.mesh;
-      status = stuff_lattice(this->context_, this->inside_.winding(), lattice, this->box_,
-        this->options_.winding_threshold, mesh);
-      if (!status.ok())
+      status = this->cut_lattice(resolution);
+      if (status.ok() || status.code == StatusCode::canceled)
       {
-        return status;
+        break;
       }
-      const double volume = tet_volumes(mesh.points, mesh.tets).sum();
-      if (mesh.tets.rows() == 0)
-      {
-        status = this->inside_.no_tets_error();
-      }
-      else if (status = check_tets(mesh.points, mesh.tets); !status.ok())
-      {
-        // check_tets() has written the reason to `status`
-      }
-      else if (!this->inside_.fits(volume))
-      {
-        status = wrong_volume_error(volume, this->inside_);
-        if (this->inside_.misfit(volume) < this->lattice_misfit_)
-        {
-          this->lattice_misfit_ = this->inside_.misfit(volume);
-          this->lattice_mesh_ = mesh;
-        }
-      }
-      this->report_.set("resolution", Report::Value(resolution));
-      this->log("lattice of " + std::to_string(resolution) + " cubes, cut", start, status);
-      if (status.ok())
-      {
-        return this->finish_remeshed(TetMethod::remesh);
-      }
-      this->lattice_status_ = status;
     }
+    return status.ok() ? this->finish_remeshed(TetMethod::remesh) : status;
+  }
+
+  /// Cut a lattice and check its tets. Keep them for use_lattice_tets() if only their volume is
+  /// wrong, and their misfit is the smallest so far.
+  Status cut_lattice(Index resolution)
+  {
+    const double start = this->context_.elapsed_seconds();
+    const Lattice lattice = Lattice::around(this->box_, resolution);
+    TetMesh& mesh = this->result_.mesh;
+    Status status = stuff_lattice(this->context_, this->inside_.winding(), lattice, this->box_,
+      this->options_.winding_threshold, mesh);
+    if (!status.ok())
+    {
+      return status;
+    }
+    const double volume = tet_volumes(mesh.points, mesh.tets).sum();
+    if (mesh.tets.rows() == 0)
+    {
+      status = this->inside_.no_tets_error();
+    }
+    else if (status = check_tets(mesh.points, mesh.tets); !status.ok())
+    {
+      // check_tets() has written the reason to `status`
+    }
+    else if (!this->inside_.fits(volume))
+    {
+      status = wrong_volume_error(volume, this->inside_);
+      if (this->inside_.misfit(volume) < this->lattice_misfit_)
+      {
+        this->lattice_misfit_ = this->inside_.misfit(volume);
+        this->lattice_mesh_ = mesh;
+      }
+    }
+    if (status.ok())
+    {
+      this->report_.set("resolution", Report::Value(resolution));
+    }
+    this->log("lattice of " + std::to_string(resolution) + " cubes, cut", start, status);
     return status;
   }
+
+  /// Report whether lattice tets have been kept whose volume differs at most by a factor of two.
+  bool lattice_is_usable() const { return this->lattice_misfit_ <= maximum_misfit; }
 
   Index remesh_resolution() const
   {
@@ -440,8 +464,8 @@ private:
     return resolution;
   }
 
-  /// If method cdt takes long, start the Delaunay refinement in parallel, because method cdt may
-  /// fail.
+  /// If method cdt takes long, start the Delaunay refinement in parallel, because method cdt and
+  /// the lattice may fail.
   void prepare_refinement()
   {
     constexpr double delay = 10.0; // seconds
@@ -481,7 +505,7 @@ private:
       constexpr double maximum_limit = 14.0;
       options.time_limit = std::min({ options.time_limit, maximum_limit,
         base_limit + seconds_per_triangle * static_cast<double>(this->surface_.triangles.rows()) });
-      options.thin_limit = thin_limit;
+      options.maximum_thin_fraction = maximum_thin_fraction;
     }
     this->refinement_.status = remesh_tets(context, this->surface_.points, this->surface_.triangles,
       this->inside_.winding(), options, this->refinement_.result);
@@ -827,9 +851,9 @@ private:
 
   /// Largest misfit of a usable result: a factor of two in volume.
   static constexpr double maximum_misfit = 0.6931471805599453;
-  /// Of the furniture models whose thin_fraction (see RemeshOptions) is larger than this, none got
-  /// tets of the right volume from the Delaunay refinement.
-  static constexpr double thin_limit = 0.8;
+  /// Limit for RemeshOptions::maximum_thin_fraction in method automatic. The refinement gave a
+  /// wrong volume for every furniture model above it.
+  static constexpr double maximum_thin_fraction = 0.8;
   /// Threshold for the interior of a wrap. It does not depend on the options, because a wrap of any
   /// surface has the winding number 1 inside.
   static constexpr double wrap_threshold = 0.5;
@@ -851,7 +875,6 @@ private:
   /// Lattice tets with the smallest misfit so far. They are used if no attempt has the right
   /// volume.
   TetMesh lattice_mesh_;
-  Status lattice_status_; ///< the reason why the tets of the last lattice were not used
   double lattice_misfit_ = std::numeric_limits<double>::infinity();
   /// Result of run_refinement().
   struct Refinement

@@ -18,7 +18,7 @@ namespace bindpose
 /// Method of tetrahedralization. vtkTetrahedralizeSurface uses the same integer values.
 enum class TetMethod
 {
-  automatic, ///< method cdt and, if it fails, method remesh
+  automatic, ///< method cdt; if it fails, a cut lattice or Delaunay refinement
   /// Constrained Delaunay tets of the convex hull, reduced to the tets that the segmentation labels
   /// as inside.
   cdt,
@@ -155,9 +155,10 @@ struct TetrahedralizeResult
 ///   (ftetwild_process.h). winding_threshold must be 0.5. No input vertex is kept.
 ///
 /// Method automatic tries cdt. If it fails, the following attempts are made until one has the right
-/// volume: cut a lattice of twice the resolution; Delaunay refinement as in remesh; cut a lattice
-/// of four times the resolution. The report then contains remesh as the method. Method automatic
-/// never uses embed, wrap or ftetwild.
+/// volume: cut a lattice of twice the resolution (at most four million cubes); Delaunay refinement
+/// as in remesh, unless most of the region is too thin for it; cut a lattice of four times the
+/// resolution. The report then contains remesh as the method. If cdt does not reach `quality`, the
+/// refinement is tried first. Method automatic never uses embed, wrap or ftetwild.
 ///
 /// Orientation is repaired first (repair_surface); a warning reports the flipped parts.
 ///

@@ -132,8 +132,7 @@ Status thick_solid(ExecutionContext& context, PointsView points, TrianglesView t
     ? Triangles(triangles)
     : missed_triangles(points, triangles, lattice, region.inside);
   const TriangleTree tree(points, thickened);
-  const auto is_in_layer = [&](const Vec3& p)
-  { return thickened.rows() > 0 && std::isfinite(tree.distance(p, thickness)); };
+  const auto is_in_layer = [&](const Vec3& p) { return tree.is_within(p, thickness); };
   {
     const Phase phase(context, "distance", 0.4, 0.6);
     constexpr Index block = 256;

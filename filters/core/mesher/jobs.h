@@ -90,16 +90,16 @@ struct RemeshJobOptions
   /// the distance of the points.
   double growth = 0.3;
   double tet_limit = 5e5; ///< approximate maximum number of tets
-  /// Give up if a larger fraction of the boundary's area bounds parts or gaps that are thinner than
-  /// smallest_edge.
-  double thin_limit = 1.0;
+  /// Maximum fraction (0 to 1) of the boundary's area where the region, or the gap next to it, is
+  /// thinner than smallest_edge. If the fraction is larger, the job fails before it refines.
+  double maximum_thin_fraction = 1.0;
 };
 
 /// Compute tets of the region {winding number >= winding_threshold} of the surface data.triangles.
 /// Surface vertices that are kept have the same coordinates but new ids. The list of tets is empty
 /// if the surface encloses no volume. The job reports counts.boundary_vertices (the number of
-/// surface vertices that bound the region), thin_fraction (see thin_limit), and seconds.* since the
-/// start of the job.
+/// surface vertices that bound the region), thin_fraction (see maximum_thin_fraction), and
+/// seconds.* since the start of the job.
 /// @return empty, or the reason for giving up.
 std::string remesh(MesherData& data, RemeshJobOptions options);
 

@@ -71,7 +71,7 @@ std::string run(
     remesh.smallest_edge = helper_number(options, "--smallest", remesh.smallest_edge);
     remesh.largest_edge = helper_number(options, "--largest", remesh.largest_edge);
     remesh.tet_limit = helper_number(options, "--tets", remesh.tet_limit);
-    remesh.thin_limit = helper_number(options, "--thin", remesh.thin_limit);
+    remesh.maximum_thin_fraction = helper_number(options, "--thin", remesh.maximum_thin_fraction);
     return bindpose::remesh(data, remesh);
   }
   if (job == "wrap")

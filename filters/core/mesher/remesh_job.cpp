@@ -163,11 +163,14 @@ private:
   BoundedCellCriteria cells_;
 };
 
-/// Return the fraction of the boundary's area whose sites request the smallest edge length.
+/// Return the fraction of the boundary's area at which the region, or the gap next to it, is not
+/// thicker than smallest_edge.
 double thin_fraction(const BoundarySites& sites, double smallest_edge)
 {
-  return (sites.lengths.array() <= smallest_edge).select(sites.areas.array(), 0.0).sum() /
-    sites.areas.sum();
+  const double area = sites.areas.sum();
+  const double thin_area =
+    (sites.thickness.array() <= smallest_edge).select(sites.areas.array(), 0.0).sum();
+  return area > 0.0 ? thin_area / area : 0.0;
 }
 
 /// Create the sizing field. Increase options.smallest_edge until the expected number of tets is at
@@ -282,11 +285,12 @@ std::string remesh(MesherData& data, RemeshJobOptions options)
   }
   const double thin = thin_fraction(sites, options.smallest_edge);
   report_value("thin_fraction", thin);
-  if (thin > options.thin_limit)
+  if (thin > options.maximum_thin_fraction)
   {
     constexpr double percent = 100.0;
     return short_number(percent * thin) +
-      " % of the boundary's area bounds parts or gaps that are thinner than the shortest edge";
+      " % of the boundary's area bounds parts or gaps thinner than the smallest edge (at most " +
+      short_number(percent * options.maximum_thin_fraction) + " % is allowed)";
   }
   const SizingField field = make_field(sites, options);
   const CreasePoints creases = find_creases(region, field);

@@ -88,7 +88,7 @@ namespace
 struct Site
 {
   Vec3 point;
-  double length, area;
+  double length, area, thickness;
 };
 
 /// Place points on a triangle, at most about `spacing` apart, in rows parallel to its shortest
@@ -152,8 +152,9 @@ bool sample_boundary(ExecutionContext& context, const RegionBoundary& region,
             if (region.bounds_region_at(f, p))
             {
               const double thickness = region.thickness(f, p, options.smallest, options.largest);
-              sites_of_block[begin / block].push_back({ p,
-                std::clamp(std::min(edge, thickness), options.smallest, options.largest), area });
+              sites_of_block[begin / block].push_back(
+                { p, std::clamp(std::min(edge, thickness), options.smallest, options.largest), area,
+                  thickness });
             }
           });
         for (int k = 0; k < 3; ++k)
@@ -186,7 +187,7 @@ bool sample_boundary(ExecutionContext& context, const RegionBoundary& region,
     if (count[v] > 0.0)
     {
       const double length = std::clamp(sum[v] / count[v], options.smallest, options.largest);
-      all.push_back({ region.points().row(v), length, 0.0 });
+      all.push_back({ region.points().row(v), length, 0.0, options.largest });
       sites.vertices.push_back(v);
     }
   }
@@ -198,11 +199,13 @@ bool sample_boundary(ExecutionContext& context, const RegionBoundary& region,
   sites.points.resize(n, 3);
   sites.lengths.resize(n);
   sites.areas.resize(n);
+  sites.thickness.resize(n);
   for (Index i = 0; i < n; ++i)
   {
     sites.points.row(i) = all[i].point;
     sites.lengths[i] = all[i].length;
     sites.areas[i] = all[i].area;
+    sites.thickness[i] = all[i].thickness;
   }
   return true;
 }

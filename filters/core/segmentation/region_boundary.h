@@ -78,6 +78,9 @@ struct BoundarySites
   /// triangles.
   Eigen::VectorXd lengths;
   Eigen::VectorXd areas; ///< #S: area that the site represents, 0 for vertices
+  /// #S: thickness of the region, or of the gap next to it, from `smallest` to `largest`; `largest`
+  /// for vertices.
+  Eigen::VectorXd thickness;
   std::vector<Index> vertices; ///< input ids of the sites that are vertices; these sites come first
 };
 

@@ -101,8 +101,8 @@ Box TriangleTree::build(std::vector<Item>& items, Index begin, Index end)
 }
 
 /// Call at_triangle(closest point, squared distance) for the triangles of all leaves whose boxes
-/// are within squared_limit, nearer boxes first. at_triangle() may lower squared_limit. The search
-/// ends when it returns false.
+/// are within squared_limit, nearer boxes first. squared_limit is a reference, because
+/// at_triangle() may lower the variable. The search ends when at_triangle() returns false.
 template <typename AtTriangle>
 void TriangleTree::search(
   const Vec3& p, const double& squared_limit, const AtTriangle& at_triangle) const
@@ -137,14 +137,15 @@ void TriangleTree::search(
       continue;
     }
     // Push the nearer child last, so that it is visited first.
-    std::pair<Index, double> near{ at + 1, squared_distance(this->nodes_[at + 1].box, p) };
-    std::pair<Index, double> far{ node.right, squared_distance(this->nodes_[node.right].box, p) };
-    if (far.second < near.second)
+    std::pair<Index, double> nearer{ at + 1, squared_distance(this->nodes_[at + 1].box, p) };
+    std::pair<Index, double> farther{ node.right,
+      squared_distance(this->nodes_[node.right].box, p) };
+    if (farther.second < nearer.second)
     {
-      std::swap(near, far);
+      std::swap(nearer, farther);
     }
-    stack[top++] = far;
-    stack[top++] = near;
+    stack[top++] = farther;
+    stack[top++] = nearer;
   }
 }
 

@@ -57,7 +57,7 @@ void CavitySearch::add(Index t)
 }
 
 /// Collect the tets around `start`, connected by facets, whose circumspheres contain p. @return
-/// false if a facet of `start` would bound the cavity and form too flat a tet with p.
+/// false if the new tet on a facet of `start` that bounds the cavity is below minimum_quality.
 bool CavitySearch::collect_sphere(const Vec3& p, Index start, double minimum_quality)
 {
   ++this->searches_;

@@ -12,11 +12,11 @@ namespace bindpose
 
 namespace
 {
-// The sign of a volume in doubles is not reliable if the quality is below this (0.001 degrees), or
-// if the squared volume, relative to the squared lengths of three edges, is below this.
+// If the quality is below this (0.001 degrees), the sign of a volume in doubles is not reliable.
 constexpr double unreliable_quality = 3e-10;
+// The same for the squared volume, divided by the squared lengths of the edges at one vertex.
 constexpr double unreliable_square = 1e-26;
-// Larger values are rounding errors: the quality of a regular tet is 8/9.
+// The largest possible quality is 8/9; larger values are rounding errors.
 constexpr double largest_quality = 0.9;
 // Quality of a tet whose dihedral angles cannot be computed in doubles.
 constexpr double least_quality = 1e-24;
@@ -44,9 +44,12 @@ TetComplex::TetComplex(TetMesh& mesh)
   {
     for (int k = 0; k < 4; ++k)
     {
-      for (int i = 0; i < 3 && this->neighbors_[t][k] < 0; ++i)
+      if (this->neighbors_[t][k] < 0)
       {
-        this->boundary_[this->tets_[t][facet_corners[k][i]]] = 1;
+        for (const int corner : facet_corners[k])
+        {
+          this->boundary_[this->tets_[t][corner]] = 1;
+        }
       }
     }
   }
@@ -115,7 +118,7 @@ double TetComplex::quality(const Vec3& a, const Vec3& b, const Vec3& c, const Ve
   add(nb, nc, square * ad.squaredNorm(), lb * lc);
   add(nb, nd, square * ac.squaredNorm(), lb * ld);
   add(nc, nd, square * ab.squaredNorm(), lc * ld);
-  // check_tets() makes the same two tests.
+  // Both tests are those of check_tets().
   const bool is_reliable = least >= unreliable_quality &&
     square > unreliable_square * ab.squaredNorm() * ac.squaredNorm() * ad.squaredNorm();
   if (!is_reliable && (orientation_3d(a, b, c, d) <= 0 || !(tet_volume(a, b, c, d) > 0.0)))

@@ -14,8 +14,8 @@ namespace bindpose
 
 /// A tet mesh that is edited in place. Each vertex stores its tets, and each tet its neighbors. The
 /// ids of removed tets are not used again before compact(). Queries are thread-safe while no thread
-/// edits the mesh. A facet must never have more than two tets, so tets must be removed before
-/// others replace them. The quality of a tet is the squared sine of its smallest dihedral angle (at
+/// edits the mesh. At most two tets may share a facet at any time: remove tets before adding
+/// their replacements. The quality of a tet is the squared sine of its smallest dihedral angle (at
 /// most 70.53 degrees).
 class TetComplex
 {
@@ -51,7 +51,7 @@ public:
   const std::vector<Index>& tets_of_vertex(Index v) const { return this->vertex_tets_[v]; }
   bool on_boundary(Index v) const { return this->boundary_[v] != 0; }
   double quality(Index t) const { return this->quality_[t]; }
-  /// Return the quality of a tet, or -1 if its volume is not positive (exact test).
+  /// Return the quality of a tet, or -1 if its volume is not positive, exactly or in doubles.
   static double quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
   double quality(const Tet& tet) const
   {

@@ -172,17 +172,10 @@ private:
         if (step.kind == TetStep::Kind::none)
         {
           this->last_search_[batch[i]] = before;
-          if (may_insert(this->rules_, batch[i]))
-          {
-            ++this->rules_.failed_insertions[batch[i]];
-          }
+          this->rules_.failed_insertions[batch[i]] += step.insertion_failed ? 1 : 0;
           continue;
         }
         ++count.improved;
-        if (step.kind == TetStep::Kind::insert)
-        {
-          this->rules_.failed_insertions[batch[i]] = 0;
-        }
         this->apply(step);
         deferred.push_back(batch[i]);
       }

@@ -9,7 +9,8 @@
 //    step length. Before this step, an edge that is shorter than 1 % of the tet's longest edge is
 //    contracted, because moving a vertex cannot improve such a tet.
 // 4. Contract one of its edges into one of its ends, if no vertex could be moved.
-// 5. Insert a vertex in the middle of the tet or of one of its edges, if insertion is allowed.
+// 5. Insert a vertex in the middle of the tet or of one of its edges, if insertion is allowed and
+//    at most two searches for such a vertex have failed.
 #include "tets/tet_steps.h"
 
 #include "base/sort_unique.h"
@@ -66,6 +67,7 @@ void TetStep::clear()
   this->added.clear();
   this->vertex = -1;
   this->immovable.clear();
+  this->insertion_failed = false;
 }
 
 bool may_move(const TetComplex& tets, const TetStepRules& rules, Index v)
@@ -124,7 +126,7 @@ void TetStepSearch::find(Index t, TetStep& step)
   if (!this->contract_short_edge(tet, 1.0, step) && may_insert(this->rules_, t) &&
     this->tets_.quality(t) < this->insertion_quality_)
   {
-    this->insert_near(t, step);
+    step.insertion_failed = !this->insert_near(t, step);
   }
 }
 

@@ -33,6 +33,7 @@ struct TetStep
   TetCavity cavity;
   /// The vertices of the tet for which no better position was found.
   std::vector<Index> immovable;
+  bool insertion_failed = false; ///< whether no vertex could be inserted near the tet
 
   void clear();
 };
@@ -51,8 +52,7 @@ struct TetStepRules
   /// #V: value of TetComplex::stamp() for each vertex at the last search that found no better
   /// position for the vertex. 0: no such search.
   std::vector<std::uint64_t> immovable_since;
-  /// #T: number of searches for the tet that found no step, since a vertex was last inserted near
-  /// the tet.
+  /// #T: number of searches that could not insert a vertex near the tet.
   std::vector<std::uint8_t> failed_insertions;
   bool may_move_constrained = false; ///< true if held vertices may move
   bool insert = false; ///< true if vertices may be inserted
@@ -64,8 +64,8 @@ struct TetStepRules
 /// better position.
 bool may_move(const TetComplex& tets, const TetStepRules& rules, Index v);
 
-/// Report whether a vertex may be inserted near tet t. After a few searches without success, more
-/// searches take most of the time and very few succeed.
+/// Report whether a vertex may be inserted near tet t. After three failed searches, insertion is
+/// skipped, because further searches rarely succeed.
 bool may_insert(const TetStepRules& rules, Index t);
 
 /// Finds steps that improve a tet. Each thread needs a separate object. The tets and the rules may

@@ -183,9 +183,9 @@ Status remesh_tets(ExecutionContext& context, PointsView points, TrianglesView t
     data.triangles = triangles;
     status = run_mesher(context, request, data, answer);
   }
-  status.report = answer.report;
   if (!status.ok())
   {
+    status.report = answer.report; // contains thin_fraction
     return status;
   }
   if (answer.data.tets.rows() == 0)

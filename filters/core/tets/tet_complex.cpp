@@ -18,8 +18,6 @@ constexpr double unreliable_quality = 3e-10;
 constexpr double unreliable_square = 1e-26;
 // The largest possible quality is 8/9; larger values are rounding errors.
 constexpr double largest_quality = 0.9;
-// Quality of a tet whose dihedral angles cannot be computed in doubles.
-constexpr double least_quality = 1e-24;
 } // namespace
 
 TetComplex::TetComplex(TetMesh& mesh)
@@ -211,10 +209,7 @@ void TetComplex::link_neighbors(Index t)
     neighbors[k] = found == list.end() ? -1 : *found;
     if (found != list.end())
     {
-      const Tet& other = this->tets_[*found];
-      const auto opposite = std::find_if(
-        other.begin(), other.end(), [&](Index v) { return v != a && v != b && v != c; });
-      this->neighbors_[*found][opposite - other.begin()] = t;
+      this->neighbors_[*found][opposite_corner(this->tets_[*found], a, b, c)] = t;
     }
   }
 }

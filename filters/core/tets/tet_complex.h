@@ -33,6 +33,8 @@ public:
   };
 
   static constexpr double removed_quality = 1e9; ///< quality of a removed tet
+  /// Quality of a tet whose dihedral angles cannot be computed in doubles.
+  static constexpr double least_quality = 1e-24;
   static constexpr std::size_t maximum_ring_size = 10; ///< maximum number of tets in a ring
 
   /// Take over points and tets. The tets must be positive and conforming: they intersect only in
@@ -79,6 +81,13 @@ public:
   static bool has_vertex(const Tet& tet, Index v)
   {
     return tet[0] == v || tet[1] == v || tet[2] == v || tet[3] == v;
+  }
+  /// Return the index of the corner of a tet that is none of its vertices a, b and c.
+  static int opposite_corner(const Tet& tet, Index a, Index b, Index c)
+  {
+    const auto found =
+      std::find_if(tet.begin(), tet.end(), [&](Index v) { return v != a && v != b && v != c; });
+    return static_cast<int>(found - tet.begin());
   }
   void find_edge_tets(Index a, Index b, std::vector<Index>& found) const;
   bool has_edge(Index a, Index b) const;

@@ -149,10 +149,9 @@ double TetStepSearch::penalty(double quality) const
   {
     return 0.0;
   }
-  constexpr double minimum_quality = 1e-24;
   // The logarithm is halved, because the quality is the square of the sine.
   constexpr double half = 0.5;
-  return half * std::log(this->good_quality_ / std::max(quality, minimum_quality));
+  return half * std::log(this->good_quality_ / std::max(quality, TetComplex::least_quality));
 }
 
 TetStepSearch::Cost TetStepSearch::cost(const std::vector<Index>& tets) const
@@ -307,8 +306,7 @@ bool TetStepSearch::remove_facet(Index t, int k, TetStep& step)
   const Tet& other_tet = this->tets_.tet(other);
   const auto& f = facet_corners[k];
   const Index a = tet[f[0]], b = tet[f[1]], c = tet[f[2]], d = tet[k];
-  const Index e = *std::find_if(
-    other_tet.begin(), other_tet.end(), [&](Index v) { return v != a && v != b && v != c; });
+  const Index e = other_tet[TetComplex::opposite_corner(other_tet, a, b, c)];
   const std::array<Tet, 3> added{ { { b, a, e, d }, { c, b, e, d }, { a, c, e, d } } };
   const Cost old_cost = this->cost({ t, other });
   const double minimum_quality = this->minimum_quality_after(old_cost);

@@ -1,11 +1,12 @@
 // Anderson acceleration with incrementally updated normal equations. The differences between
 // successive values of g and of the residual f = g - x are stored in ring buffers, one row per
-// difference. The matrix of the normal equations contains the inner products of the residual
-// differences with each other. The right-hand side contains their inner products with f. A new
-// residual difference d adds or replaces one row and one column of the matrix. Because f also
-// changes by d, each entry of the right-hand side changes by the corresponding entry of the new
-// row. Only the entry for d is computed as a new inner product with f. Therefore a step needs one
-// inner product per stored difference and one more.
+// difference. Entry (i, j) of the matrix of the normal equations is the inner product of the
+// residual differences d_i and d_j. Entry i of the right-hand side is the inner product of d_i and
+// f. A step computes a new difference d, which adds or replaces one row and one column of the
+// matrix. Because the step also changes f by d, entry i of the right-hand side changes by the inner
+// product of d_i and d, which is in the new row. Only the entry for d itself needs an inner product
+// with f. In total, a step computes one inner product per stored difference, and one inner product
+// with f.
 #include "arap/anderson.h"
 
 #include "base/packs.h"

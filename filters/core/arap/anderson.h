@@ -14,13 +14,15 @@ namespace bindpose
 constexpr Index largest_anderson_window = 50;
 
 /// Anderson acceleration of a fixed-point iteration x <- g(x). The next x is g(x) minus a linear
-/// combination of the last differences between successive values of g. The coefficients are those
-/// for which the same combination of residual differences is nearest to the residual g(x) - x. The
-/// next x is thus a linear combination of values of g whose coefficients sum to one. Therefore it
-/// satisfies all linear constraints that these values satisfy. The caller decides whether an
-/// extrapolated x is acceptable, for example by an energy that must not rise. If it is not
-/// acceptable, the caller continues from g(x) and calls clear_history(). Method: Peng et al. 2018,
-/// Anderson acceleration for geometry optimization and physics simulation.
+/// combination of the last differences between successive values of g. The residual g(x) - x has
+/// corresponding differences between successive values. The coefficients are chosen so that the
+/// same combination of residual differences is nearest to the last residual. The next x is an
+/// affine combination of values of g: the coefficients of these values sum to one. Therefore the
+/// next x satisfies all linear constraints that the values of g satisfy. The caller decides whether
+/// an extrapolated x is acceptable, for example by checking that an energy does not rise. If the
+/// extrapolated x is not acceptable, the caller continues from g(x) and calls clear_history().
+/// Method: Peng et al. 2018, Anderson acceleration for geometry optimization and physics
+/// simulation.
 ///
 /// The caller can append extra values to x, which are linear functions of x (such as a gradient).
 /// They are combined like x, but they are not part of the residual.

@@ -5,8 +5,8 @@
 // fractions are added.
 // - Elements: the sum runs over the edges of each element, with the element's cotangent weights.
 //   Only the group of the element contributes.
-// - Spokes and rims: the sum is the same. The group of each vertex of the element contributes with
-//   one third (triangle) or one quarter (tet).
+// - Spokes and rims: the sum runs over the same edges with the same weights. The groups of the
+//   element's vertices contribute with one third each (triangle) or one quarter each (tet).
 // - Spokes: the sum runs over the edges of the mesh, with their weights from the stiffness matrix.
 //   The groups of the two ends contribute with one half each.
 #include "arap/arap_energy.h"

@@ -22,10 +22,11 @@ namespace bindpose
 /// distributed evenly over all directions.
 ///
 /// The weight of an edge is the sum of its elements' cotangent weights. The energy `spokes` omits
-/// edges with negative weights (obtuse angles opposite to the edge), because such an edge alone
-/// would lower the energy by rotating away from rest. If an edge is omitted, the costs above do not
-/// hold for `spokes`. The other energies keep all edges, because the weights of a whole element
-/// define a positive semi-definite form.
+/// edges with negative weights (obtuse angles opposite to the edge), because the term of such an
+/// edge is negative whenever the edge does not follow the rotation, so the rest pose would not
+/// always be the minimum. If an edge is omitted, the costs above do not hold for `spokes`. The
+/// other energies keep all edges, because the weights of a whole element define a positive
+/// semi-definite form.
 enum class ArapEnergy : int
 {
   automatic = 0, ///< `elements` on tets, `spokes_and_rims` on surfaces

@@ -74,8 +74,8 @@ private:
   Eigen::MatrixXd constraint_system_;
   Eigen::MatrixXd multipliers_; ///< inverse of constraint_system_
 
-  /// #V: index of the vertex's part in shift_index_ and floating_part_sizes_, which list the parts
-  /// without a prescribed vertex; -1 for vertices in no such part.
+  /// #V: index of the vertex's part in shift_index_ and floating_part_sizes_; -1 for vertices in
+  /// other parts. These two arrays have one entry per part without a prescribed vertex.
   std::vector<Index> floating_part_;
   /// Per part without a prescribed vertex: index of its shift (an unknown translation of the part)
   /// among the shifts in constraint_system_; -1 if no constrained point is in the part.

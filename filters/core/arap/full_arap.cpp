@@ -68,9 +68,9 @@ Status FullArap::prepare(const Pose& pose)
 }
 
 /// Compute initial rotations from the pose only. Each handle prescribes a matrix at its constrained
-/// points. For a handle in mode full, it is the linear part of the transform; for any other handle,
-/// the rotation that best fits the whole pose (pivot_rotation()). Laplace's equation extends the
-/// matrices over the mesh. The results are projected to rotations.
+/// points. For a handle in mode full, this matrix is the linear part of the transform. For any
+/// other handle, it is the rotation that best fits the whole pose (pivot_rotation()). Laplace's
+/// equation extends the matrices over the mesh. The results are projected to rotations.
 void FullArap::start_rotations(const Pose& pose)
 {
   const Eigen::Matrix3d global_rotation = pivot_rotation(this->handles_, pose, 0.3 * this->radius_);

@@ -35,16 +35,16 @@ struct FullArapOptions
 /// physics simulation).
 ///
 /// Constraints by the mode of a handle:
-/// - `full`: the transform moves the handle's vertices. These are the vertex at a point or cage
-///   vertex, the vertices along a bone, or the vertices with the label of a region.
+/// - `full`: the transform moves the handle's vertices: the vertex at the position of a point or
+///   cage vertex, the vertices along a bone, or the vertices with the label of a region.
 /// - `position`: the pivot is constrained to its transformed position. The pivot of a region is the
 ///   mean of its vertices.
 /// - `free`: no constraint.
 ///
-/// If there is no vertex at the position of a handle, the point of the element at this position is
-/// constrained exactly. If the handle is not on the mesh, the nearest point of the mesh is
-/// constrained. A vertex that several handles in mode `full` constrain moves to the mean of their
-/// targets.
+/// If there is no vertex at the position of a handle, but an element contains this position, the
+/// point inside the element is constrained exactly. If the handle is not on the mesh, the nearest
+/// point of the mesh is constrained. A vertex that several handles in mode `full` constrain moves
+/// to the mean of their targets.
 ///
 /// The unknowns are displacements from rest, so the rest pose is reproduced exactly. A connected
 /// part without constraints does not move, and neither do unused vertices. A vertex whose elements
@@ -114,7 +114,8 @@ public:
   std::vector<Eigen::Matrix3d> rotations() const;
   const RotationGroups& groups() const { return this->groups_; }
   /// Energy after each local and global step of the last solve: start, local, global, local,
-  /// global, … Energies of a mesh with extreme coordinates are those in its WorkingFrame.
+  /// global, … For a mesh with extreme coordinates, energies are computed in the coordinates of its
+  /// WorkingFrame.
   const std::vector<double>& energies() const { return this->energies_; }
   /// Quadratic form 1/2 tr(V^T L V) of the rest positions V. The round-off of energies is
   /// proportional to this value.

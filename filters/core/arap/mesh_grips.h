@@ -13,18 +13,18 @@ namespace bindpose
 /// "constrained". Used by deformations in which every vertex is an unknown.
 ///
 /// Constraints by the mode of a handle:
-/// - `full`: the transform moves the handle's vertices. These are the vertex at a point or cage
-///   vertex, the vertices along a bone, or the vertices with the label of a region.
+/// - `full`: the transform moves the handle's vertices: the vertex at the position of a point or
+///   cage vertex, the vertices along a bone, or the vertices with the label of a region.
 /// - `position`: the pivot is constrained to its transformed position. The pivot of a region is the
 ///   mean of its vertices.
 /// - `tail`: the tail of a bone is constrained to its transformed position.
 /// - `ends`: both ends of a bone are constrained to their transformed positions.
 /// - `free`: no constraint.
 ///
-/// If there is no vertex at the position of a handle, the point of the element at this position is
-/// constrained exactly. If the handle is not on the mesh, the nearest point of the mesh is
-/// constrained. A vertex that several handles in mode `full` constrain moves to the mean of their
-/// targets.
+/// If there is no vertex at the position of a handle, but an element contains this position, the
+/// point inside the element is constrained exactly. If the handle is not on the mesh, the nearest
+/// point of the mesh is constrained. A vertex that several handles in mode `full` constrain moves
+/// to the mean of their targets.
 class MeshGrips
 {
 public:

@@ -51,9 +51,9 @@ Status ReducedArap::deform(ExecutionContext& context, PointsView rest, PointsOut
 Status ReducedArap::weights(ExecutionContext& context, Weights& weights) const
 {
   // Compute the weights by linear blend skinning of vertices at the origin. If the transform of one
-  // column is a unit translation and all other transforms are the identity, each vertex moves by
-  // its weight in this column. One blend yields three columns, which are translated along different
-  // axes.
+  // column is a unit translation and all other transforms are the identity, the displacement of
+  // each vertex equals its weight in this column. One blend yields the weights of three columns,
+  // because each of the three columns is translated along a separate axis.
   const Index columns = this->space_.columns;
   const Points origin = Points::Zero(this->space_.skinning.vertex_count(), 3);
   Points moved;

@@ -23,7 +23,8 @@ namespace bindpose
 /// steps, Anderson acceleration extrapolates from the last iterates. If the extrapolated iterate
 /// would raise the energy, the plain iterate is used. In mode `full` the transform of a handle is
 /// constrained. In mode `position` its pivot is constrained to its transformed position. In mode
-/// `free` there is no constraint. If every handle is full, the result is linear blend skinning.
+/// `free` there is no constraint. If every handle is in mode `full`, the result is linear blend
+/// skinning.
 ///
 /// The unknowns are displacements from rest, so the rest pose is reproduced exactly, even for
 /// ill-conditioned, duplicate or empty weight columns. Displacements that affect neither the energy
@@ -79,7 +80,8 @@ public:
   std::vector<Eigen::Matrix3d> rotations() const;
   const RotationGroups& groups() const { return this->space_.groups; }
   /// Energy after each local and global step of the last solve: start, local, global, local,
-  /// global, … Energies of a mesh with extreme coordinates are those in its WorkingFrame.
+  /// global, … For a mesh with extreme coordinates, energies are computed in the coordinates of its
+  /// WorkingFrame.
   const std::vector<double>& energies() const { return this->solver_.energies(); }
   /// Quadratic form 1/2 tr(V^T L V) of the rest positions V. The round-off of energies is
   /// proportional to this value.

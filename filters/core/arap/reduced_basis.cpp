@@ -20,11 +20,11 @@
 //
 // If one of the following conditions does not hold, the quick method returns false and the robust
 // method is used.
-// - L is well-conditioned. Then a basis in fewer unknowns, or under constraints, is also
-//   well-conditioned, so the robust method would not remove a direction either.
-// - The condition number of A A^T for the positions is at most 1e6. No diagonal entry of a
-//   triangular factor is smaller than the smallest singular value. Therefore all pivots in the QR
-//   decomposition of the robust method would exceed a thousandth of the first pivot, and no
+// - L is well-conditioned. Removing unknowns or adding constraints does not increase the condition
+//   number. Therefore the robust method would not remove a direction.
+// - The condition number of A A^T for the positions is at most 1e6, so that of A^T is at most 1000.
+//   In a QR decomposition, each pivot is between the smallest and the largest singular value.
+//   Therefore each pivot of the robust method would be at least 1/1000 of the first pivot, and no
 //   position is redundant.
 // - The triangular factor of G^T is well-conditioned, and the component of u in the constraints is
 //   not small.
@@ -51,7 +51,7 @@ constexpr double position_rank = 1e-9;
 /// The quick method requires that the reciprocal condition numbers of A A^T and of the triangular
 /// factor of G^T are above this value.
 constexpr double independence_tolerance = 1e-6;
-/// The robust method is faster if there is more than one constraint per this many unknowns.
+/// The robust method is faster if #constraints * unknowns_per_constraint > #unknowns.
 constexpr Index unknowns_per_constraint = 4;
 /// Number of columns of a triangular matrix that are multiplied per block.
 constexpr Index triangle_columns = 192;

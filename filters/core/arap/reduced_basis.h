@@ -142,7 +142,7 @@ private:
   FullFactorization factorization_;
   std::vector<Index> free_indices_; ///< indices of the free unknowns in factorization_.rows
   Index constraints_ = 0;
-  Eigen::VectorXd householder_; ///< vector v of the constraints' reflection I - v v^T
+  Eigen::VectorXd householder_; ///< vector v of the constraints' Householder reflection I - v v^T
   Eigen::VectorXd shift_coupling_;
   double rho_ = 1.0;
   Reflections reflections_; ///< orthogonal factor Q of the constraints

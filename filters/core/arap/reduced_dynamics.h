@@ -10,8 +10,8 @@
 namespace bindpose
 {
 
-/// Options of one time step. Lengths are in units of the mesh, times in seconds, energies in mass
-/// length^2 / s^2.
+/// Options of one time step. Lengths are in units of the mesh, times are in seconds, and energies
+/// are in mass * length^2 / s^2.
 struct ReducedDynamicsOptions
 {
   double time_step = 1.0 / 24.0;

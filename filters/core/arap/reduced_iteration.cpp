@@ -3,9 +3,10 @@
 //
 // Y and S are computed in one pass over C. C is read in groups of four columns that fit into the
 // first-level cache. The product of a group with Q gives four rows of Y. Then the product of the
-// group with these rows is added to S. Iterates consist of Y and S, so an extrapolated iterate
-// needs no product. The exception is an extrapolation that is so large that S would be mostly
-// round-off.
+// group with these rows is added to S. An iterate consists of both Y and S, and both are
+// extrapolated with the same coefficients. Therefore an extrapolated iterate usually needs no
+// product with C. If the coefficients are so large that the extrapolated S would be mostly
+// round-off, S is computed by a product with C instead.
 //
 // Let E* be the terms that do not depend on Q. The energies are
 //

@@ -23,9 +23,9 @@
 //     after a global step  E = E* - 1/2 |Y|^2 - <Q, S*>,   E* = 1/2 <D*, H D*> - <P, D*>.
 //
 // Anderson acceleration extrapolates Y, whose squared length is in units of the energy. C Y is
-// extrapolated, too, so an extrapolated Y needs no product. The extrapolated Y is accepted if its
-// energy, with the best rotations for it, is at most the energy of the plain Y. The last iterate is
-// always a plain iterate.
+// extrapolated with the same coefficients, so an extrapolated Y usually needs no product with C.
+// The extrapolated Y is accepted if its energy, with the best rotations for it, is at most the
+// energy of the plain Y. The last iterate is always a plain iterate.
 //
 // reduced_basis.cpp computes B. Displacements that affect neither the energy nor a constraint
 // remain zero.

@@ -49,8 +49,9 @@ bool locate(
   return lambda.allFinite() && lambda.minCoeff() >= -1e-9;
 }
 
-/// Compute the barycentric coordinates of p's perpendicular foot in a triangle. Return false if the
-/// foot is outside or the distance is too large.
+/// Project p onto the plane of a triangle, and compute the barycentric coordinates of the
+/// projection. Return false if the projection is outside the triangle or if p is too far from the
+/// plane.
 bool locate(PointsView points, const TrianglesView& triangles, Index e, const Vec3& p,
   double diagonal, Eigen::Vector4d& lambda)
 {

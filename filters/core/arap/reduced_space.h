@@ -40,8 +40,8 @@ struct ReducedArapOptions
 /// space of skinning transforms V' = V + M D. The data does not depend on a pose. Its size does not
 /// depend on the size of the mesh, except for the weights of deform().
 ///
-/// D has one 4 x 3 block for each column j of the weights. The block contributes the displacement
-/// w_j ((x - center_j) / size_j, 1) block.
+/// D has one 4 x 3 block D_j for each column j of the weights. For a vertex at x with the weight
+/// w_j, this block contributes the displacement w_j ((x - center_j) / size_j, 1) D_j.
 struct ReducedSpace
 {
   /// Type of D: 4 #columns x 3.
@@ -52,15 +52,16 @@ struct ReducedSpace
   Status bind(ExecutionContext& context, PointsView points, const Elements& elements,
     WeightsView weights, const Handles& input_handles, const ReducedArapOptions& options);
 
-  /// Convert a column's transform to its displacement block. The next function converts a block to
-  /// a transform. Both are in the frame.
+  /// Convert a column's transform to its block of D. The next function converts a block of D to a
+  /// transform. Both functions use the coordinates of `frame`.
   Eigen::Matrix<double, 4, 3> block_of(const Affine& transform, Index column) const;
   Affine affine_of(const Eigen::Ref<const Eigen::Matrix<double, 4, 3>>& block, Index column) const;
   /// Return the transforms of all columns. The transforms of handles in mode full are bit-identical
   /// to those of the pose.
   std::vector<Affine> transforms_of(const Rows& d, const Pose& pose) const;
 
-  /// Frame of all other data. Transforms that enter and leave (transforms_of()) are not in it.
+  /// All other data is in the coordinates of this frame. The transforms that the user gives in a
+  /// pose, and the result of transforms_of(), are in the original coordinates.
   WorkingFrame frame;
   Handles handles;
   Skinning skinning; ///< skinning weights with all columns

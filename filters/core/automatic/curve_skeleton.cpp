@@ -91,8 +91,9 @@ struct Solid
   Vec3 centroid = Vec3::Zero();
 };
 
-/// Return the centroid of the volume inside a closed surface, as a sum over tetrahedra. Each
-/// tetrahedron has one triangle and a common apex, which is a vertex of the surface.
+/// Return the centroid of the volume inside a closed surface. Each triangle, together with one
+/// fixed vertex of the surface, forms a tetrahedron. The signed volumes and moments of these
+/// tetrahedra are added up.
 Vec3 centroid_of_mass(PointsView points, TrianglesView triangles)
 {
   const Vec3 apex = points.row(triangles(0, 0));
@@ -139,7 +140,8 @@ std::vector<Solid> solids_of(const TriangleMesh& surface)
   return solids;
 }
 
-/// Return the component of each skeleton point. Components are numbered by their first points.
+/// Return the component of each skeleton point. Components are numbered in the order of their first
+/// points.
 std::vector<Index> find_parts(const CurveSkeleton& skeleton, Index& count)
 {
   std::vector<std::vector<Index>> next(static_cast<std::size_t>(skeleton.points.rows()));
@@ -176,9 +178,9 @@ std::vector<Index> find_parts(const CurveSkeleton& skeleton, Index& count)
   return part;
 }
 
-/// Compute radii, part_of_point and centroids of the skeleton. A component of the skeleton gets the
-/// centroid of a component of the closed surface: the one nearest to the widest point of the
-/// skeleton component.
+/// Compute radii, part_of_point and centroids of the skeleton. For each component of the skeleton,
+/// take the point with the largest radius, and find the component of the closed surface nearest to
+/// this point. The centroid of this surface component is stored for the skeleton component.
 void measure(const TriangleMesh& surface, CurveSkeleton& skeleton)
 {
   const double unlimited = std::numeric_limits<double>::infinity();

@@ -55,14 +55,14 @@ struct CurveSkeleton
 /// @param solid  set to the closed surface before remeshing
 ///
 /// Report: surface ("clean" or "lattice"), counts.parts, counts.contracted_triangles,
-/// counts.iterations, counts.left_out_parts (omitted components); for a lattice, also the counts of
-/// prepare_surface and the report of thick_solid.
+/// counts.iterations, counts.left_out_parts (omitted components); if surface is "lattice", also the
+/// counts of prepare_surface and the report of thick_solid.
 /// Return one of these errors:
 /// - invalid_input: coordinates not finite, ids out of range, no triangle with an area, or an
 ///   option out of range;
 /// - unavailable: the helper executable is missing;
 /// - internal_error: the helper failed or exceeded the time limit;
-/// - canceled: the flow ends within 20 ms after a cancel.
+/// - canceled: the flow ends within 20 ms after a cancel request.
 /// Cost: some seconds for 10,000 contracted triangles, almost independent of the number of
 /// triangles of the surface.
 Status curve_skeleton(ExecutionContext& context, PointsView points, TrianglesView triangles,

@@ -313,8 +313,8 @@ private:
 
 /// Return the length of a branch divided by the radius at its junction. For a branch between two
 /// junctions, the larger of their radii is used. If the result is below 1, the branch is inside the
-/// ball with this radius around the junction. Return infinity for a branch that must be kept: if
-/// it has no junction, or if one of its junctions joins fewer than three branches (a root).
+/// ball with this radius around the junction. Return infinity for a branch that must be kept: a
+/// branch without a junction, or a branch that ends at a root that joins only two branches.
 /// @param is_inner set to true if the branch is between two junctions.
 double relative_length(const Graph& graph, const Branch& branch, bool& is_inner)
 {

@@ -27,7 +27,7 @@ struct SkeletonBonesOptions
   double prune = 1.0;
   /// Callback that reports whether a point is inside the shape; must be thread-safe. If empty,
   /// every point counts as inside. Joints are placed inside the shape if possible. A bone that
-  /// leaves the shape is split where the curve deviates from the bone by more than a quarter of the
+  /// leaves the shape is split if the curve deviates from the bone by more than a quarter of the
   /// tolerance.
   std::function<bool(const Vec3&)> inside;
 };
@@ -57,12 +57,12 @@ struct SkeletonBones
 ///    it is contracted to one point instead. This is repeated until all relative lengths are at
 ///    least `prune`. While there are more branches than maximum_bones, the branch with a free end
 ///    and the smallest relative length is pruned.
-/// 3. Branches are divided into pieces, one per bone. The piece that is farthest from its bone, or
-///    longest, is split until tolerance and longest_bone are satisfied or there are maximum_bones
-///    pieces (Douglas and Peucker, 1973, worst piece first). Points within the radius of a junction
-///    are ignored, because the curve turns there from one limb to another. A bone that leaves the
-///    shape is also split (see SkeletonBonesOptions::inside). Pieces are split only at points
-///    inside the shape.
+/// 3. Branches are divided into pieces, one per bone. The piece that exceeds tolerance or
+///    longest_bone by the largest factor is split first (Douglas and Peucker, 1973). The splitting
+///    ends if no piece exceeds tolerance or longest_bone, or if there are maximum_bones pieces.
+///    Points within the radius of a junction are ignored, because the curve turns there from one
+///    limb to another. A bone that leaves the shape is also split (see
+///    SkeletonBonesOptions::inside). Pieces are split only at points inside the shape.
 /// 4. The root of a component without cycles is the joint nearest to the centroid. Bones are
 ///    directed away from the root: the parent of a bone is the bone whose tail is the head of this
 ///    bone. If several bones begin at a root, the bone with the largest volume is the parent of the

@@ -109,7 +109,7 @@ public:
 private:
   void find_components()
   {
-    // Weld vertices with equal, finite coordinates. This includes vertices in no triangle.
+    // Weld vertices with equal, finite coordinates, including vertices that no triangle uses.
     std::vector<char> finite(static_cast<std::size_t>(this->points_.rows()));
     for (Index v = 0; v < this->points_.rows(); ++v)
     {

@@ -8,7 +8,7 @@ namespace bindpose
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double two_pi = 2.0 * pi;
-constexpr double four_pi = 4.0 * pi; ///< solid angle of all directions
+constexpr double four_pi = 4.0 * pi; ///< solid angle of the full sphere
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 } // namespace bindpose

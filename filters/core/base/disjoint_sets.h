@@ -9,9 +9,8 @@
 namespace bindpose
 {
 
-/// Union-find with path halving over 0 … count - 1. The smaller id is the root. Therefore the roots
-/// of sets are ordered like their smallest members, and the result does not depend on the order of
-/// unions.
+/// Union-find with path halving over 0 … count - 1. The root of a set is its smallest member.
+/// Therefore the result does not depend on the order of unions.
 template <typename Id>
 class DisjointSets
 {

@@ -61,7 +61,7 @@ private:
   static void write(std::uint64_t) {}
 #endif
 
-  std::uint64_t before_; ///< the control register before the scope
+  std::uint64_t before_; ///< value of the control register before the scope
 };
 
 } // namespace bindpose

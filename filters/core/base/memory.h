@@ -17,8 +17,8 @@ constexpr double mebibyte = 1024.0 * 1024.0;
 /// Linux).
 double resident_memory();
 
-/// Return the peak resident memory of this process in bytes. The peak that getrusage() returns also
-/// includes memory of the parent process; this one does not.
+/// Return the peak resident memory of this process in bytes. Unlike the peak that getrusage()
+/// returns, the result does not include memory of the parent process.
 double peak_memory();
 
 /// Return the number of bytes that this process can still allocate. This is the minimum of the

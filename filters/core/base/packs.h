@@ -5,16 +5,18 @@
 #include "base/simd.h"
 
 // Disable GCC's warning that the calling convention of functions that return vectors depends on the
-// instruction set. The functions of this file are always inlined, so they are never called.
+// instruction set. The functions of this file are always inlined, so the calling convention does
+// not matter.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace bindpose
 {
 
-/// A pack: numbers that one instruction processes in parallel. 32 bytes (8 floats or 4 doubles) are
-/// a register of AVX2, for use with BINDPOSE_SIMD_CLONES. 64 bytes are a register of AVX-512. Packs
-/// of 64 bytes are slow on AVX2, where GCC stores them in memory. Therefore they are used only in
-/// functions that are compiled for each register size (BINDPOSE_SIMD_WIDTHS).
+/// A pack: numbers that one instruction processes in parallel. A pack of 32 bytes (8 floats or 4
+/// doubles) fills one AVX2 register and is used with BINDPOSE_SIMD_CLONES. A pack of 64 bytes fills
+/// one AVX-512 register. Packs of 64 bytes are slow on AVX2, where GCC stores them in memory.
+/// Therefore they are used only in functions that are compiled for each register size
+/// (BINDPOSE_SIMD_WIDTHS).
 template <typename Scalar, int bytes = 32>
 struct PackOf
 {
@@ -77,8 +79,8 @@ BINDPOSE_ALWAYS_INLINE double sum_lanes(const PackOf<double>::Pack& p)
 }
 
 /// Add A x_j to y_j for j = 0, 1, 2. A has `count` columns, which are processed in ascending order.
-/// @param x_stride number of entries from the start of x_j to the start of x_j+1. The y_j follow
-/// one another, with `rows` entries each.
+/// @param x_stride number of entries from the start of x_j to the start of x_j+1. The vectors y_0,
+/// y_1 and y_2 are contiguous in memory, with `rows` entries each.
 template <Index count, int bytes = 32, typename Scalar>
 BINDPOSE_ALWAYS_INLINE void add_columns(
   Index rows, const Scalar* a, const Scalar* x, Index x_stride, Scalar* y)

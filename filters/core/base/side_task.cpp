@@ -1,4 +1,5 @@
-// A task that runs on a separate thread after a delay and is canceled with its owner.
+// A task that starts on a separate thread after a delay. It is canceled when its owner's context is
+// canceled.
 #include "base/side_task.h"
 
 #include <chrono>

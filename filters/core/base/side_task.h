@@ -13,9 +13,9 @@
 namespace bindpose
 {
 
-/// Runs work on a separate thread, in parallel with the owner's thread, before the owner knows
-/// whether it needs the result. The owner decides afterward whether to use the result, so an early
-/// start changes only the time until the result is available.
+/// Starts work on a separate thread before it is certain that the result is needed. The owner of
+/// the task continues in parallel and decides later whether to use the result. Therefore an early
+/// start changes only the time at which the result is available.
 class SideTask
 {
 public:
@@ -47,7 +47,7 @@ private:
   std::mutex mutex_;
   std::condition_variable condition_;
   bool started_ = false;
-  bool finish_requested_ = false; ///< true after finish() was called
+  bool finish_requested_ = false; ///< set by finish() to skip the rest of the delay
   std::atomic<bool> canceled_{ false }; ///< set when the work is dropped, and by the destructor
   bool finished_ = false;
   std::exception_ptr failure_;

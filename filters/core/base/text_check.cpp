@@ -8,7 +8,7 @@ namespace bindpose
 namespace
 {
 /// Return the number of bytes of the character that starts at a position, or 0 if it is not UTF-8.
-/// `code` is the code point.
+/// `code` is set to the code point.
 std::size_t character_length(std::string_view text, std::size_t at, std::uint32_t& code)
 {
   const auto first = static_cast<unsigned char>(text[at]);

@@ -1,9 +1,9 @@
-// This file duplicates the vertices along bones (see bone_cut.h). The triangles around a vertex on
-// a bone form groups. Two triangles are in one group if they share an edge that ends at the vertex
-// and is on no bone. The first group keeps the vertex; every other group gets a copy of it. The
-// vertex or copy belongs to the side of the bone on which the triangles of its group are. If a
-// group has triangles on both sides of one bone, it surrounds the tip of the bone, and its vertex
-// belongs to no side.
+// Duplication of the vertices along bones (see bone_cut.h). The triangles around a vertex on a bone
+// form groups. Two triangles are in one group if they share an edge that ends at the vertex and is
+// on no bone. The first group keeps the vertex; every other group gets a copy of the vertex. If all
+// triangles of a group are on one side of the curve, the group's vertex belongs to this side. If a
+// group has triangles on both sides of one curve, the group surrounds a tip of the curve, and the
+// group's vertex belongs to no side.
 #include "domain/bone_cut.h"
 
 #include <algorithm>
@@ -27,7 +27,8 @@ EdgeKey edge_key(Index a, Index b)
   return { std::min(a, b), std::max(a, b) };
 }
 
-/// The first bone along each mesh edge; -1: no bone.
+/// Map from each mesh edge to the bone along the edge (the lowest index if there are several); -1:
+/// no bone.
 using BoneEdges = std::map<EdgeKey, Index>;
 
 /// Return the mesh's vertices on the bone, from head to tail. Return an empty list unless both ends
@@ -73,7 +74,8 @@ std::vector<std::vector<Index>> groups_around(Index vertex,
   const std::vector<Index>& adjacent_triangles, TrianglesView triangles, const BoneEdges& bones)
 {
   std::vector<std::size_t> group(adjacent_triangles.size());
-  // Key: other end of an edge at `vertex`; value: first triangle at that edge.
+  // Key: other end of an edge at `vertex`. Value: the first triangle at this edge, as an index in
+  // `adjacent_triangles`.
   std::map<Index, std::size_t> first_at;
   for (std::size_t i = 0; i < adjacent_triangles.size(); ++i)
   {
@@ -140,7 +142,7 @@ Index side_of(Index vertex, const std::vector<Index>& group, PointsView points,
   {
     if (sides[i] != sides[i - 1] && (sides[i] - 1) / 2 == (sides[i - 1] - 1) / 2)
     {
-      return 0; // the group surrounds the tip of a bone
+      return 0; // the group surrounds the tip of a curve
     }
   }
   return sides.empty() ? 0 : sides.front();

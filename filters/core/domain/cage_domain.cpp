@@ -162,10 +162,11 @@ Status fill_edges(ExecutionContext& context, const std::vector<CageElement>& edg
   if (status.report.number("counts.outside_handles", 0.0) > 0.0)
   {
     // Drop the last warning, which counts handles and points of the shape outside the cage. Later
-    // steps report these: the weights problem reports the handles, the transfer reports the points.
+    // steps report handles and points separately: weights_problem.cpp reports the handles, and the
+    // transfer of the weights to the surface reports the points.
     status.warnings.pop_back();
   }
-  // Report only the angle and the area, because the weights problem reports the numbers of vertices
+  // Report only the angle and the area, because weights_problem.cpp reports the numbers of vertices
   // and triangles.
   Report report;
   report.set("cage.min_angle", status.report.number("min_angle", 0.0));

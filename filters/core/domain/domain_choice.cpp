@@ -1,5 +1,5 @@
-// Heuristics of the domain "automatic" (surface_weights.h): conforming tets or an embedding
-// lattice.
+// Heuristics of the domain "automatic" (surface_weights.h). They choose between conforming tets and
+// an embedding lattice.
 #include "domain/domain_choice.h"
 
 #include "base/number_text.h"
@@ -17,11 +17,11 @@ namespace
 /// Maximum number of triangles for conforming tets. For surfaces with more triangles, a lattice of
 /// about 30,000 tets is cheaper.
 constexpr Index maximum_triangles = 20000;
-/// A triangle with an angle below this counts as badly shaped. A tet at such a triangle is badly
-/// shaped, too.
+/// A triangle with an angle below this counts as badly shaped, because a tet at such a triangle is
+/// badly shaped, too. A tet counts as badly shaped if a dihedral angle is below 5 degrees.
 constexpr double bad_angle = 2.0; // degrees
-/// Maximum fractions of badly shaped triangles and of badly shaped tets. Measured on real furniture
-/// models: all tet meshes on which solves failed exceeded these fractions.
+/// Maximum fractions of badly shaped triangles and of badly shaped tets. In measurements on real
+/// furniture models, all tet meshes on which solves failed exceeded these fractions.
 constexpr double maximum_bad_triangles = 0.02;
 constexpr double maximum_bad_tets = 0.03;
 /// With an embedding, the weights are solved on a coarse and a fine lattice, and the two results

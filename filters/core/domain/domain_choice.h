@@ -8,8 +8,8 @@
 namespace bindpose
 {
 
-/// Predict whether solving weights in conforming tets of the inside will be well conditioned and
-/// cheap. The prediction uses only the surface, before any tet is made.
+/// Predict whether solving weights in conforming tets, which fill the inside of the surface, will
+/// be well conditioned and cheap. The prediction uses only the surface, before any tet is made.
 /// @return an empty string if the prediction is positive: the surface is closed and clean, and has
 /// few, well-shaped triangles. Otherwise, the reason why conforming tets should not be used, as
 /// text for the report.

@@ -29,8 +29,8 @@ namespace
 {
 constexpr double minimum_fraction = 0.03;
 /// After smoothing, values smaller than this are set to 0. Smoothing spreads each value over the
-/// whole surface. Far away, the values are too small to matter, but posing costs time for each
-/// nonzero weight.
+/// whole surface, which makes distant zeros tiny nonzero values. Such values have no visible
+/// effect, but posing costs time for each nonzero weight.
 constexpr double negligible_value = 1e-12;
 
 /// Return the gradients of the columns at the vertices, #V x (3 #columns): the x components of all

@@ -48,10 +48,10 @@ public:
   /// Compute values at the surface's points (#V x #columns) from values at the vertices of the
   /// lattice in which the handles were inserted. Linear interpolation would make the edges of the
   /// tets visible on the surface. Therefore each corner contributes its value plus its gradient
-  /// times half of the vector from the corner to the point. The sum is clamped to the column's
-  /// range. With Smoothness::smoothed, these sums are then smoothed along the surface over 0.3
-  /// times the lattice spacing (smooth_on_surface), except at points on handles. Values below 1e-12
-  /// are then set to 0.
+  /// times half of the vector from the corner to the point. The barycentric mean of the four
+  /// contributions is clamped to the column's range. With Smoothness::smoothed, the clamped values
+  /// are smoothed along the surface over 0.3 times the lattice spacing (smooth_on_surface), except
+  /// at points on handles. Finally, values below 1e-12 are set to 0.
   Status transfer_values(ExecutionContext& context, const HandleInsertion& mesh,
     const Handles& handles, WeightsView values, Smoothness smoothness, Weights& result) const;
 

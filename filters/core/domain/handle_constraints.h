@@ -41,10 +41,12 @@ struct HandleConstraints
 ///
 /// A vertex on several handles gets equal weights (a joint of two bones: 1/2, 1/2). If the handles
 /// do not touch, a warning names them. If every vertex of a handle is also on other handles, one of
-/// these vertices is assigned to that handle alone. Therefore every column contains a one. A
-/// component without any handle copies the weights of the handle nearest to it, with a warning. A
-/// handle with Ownership::optional is skipped if no vertex can be assigned to it alone. The column
-/// of a skipped handle is zero, and one warning names all skipped handles.
+/// these vertices is assigned to that handle alone. A handle with Ownership::optional is skipped if
+/// no vertex can be assigned to it alone. The column of a skipped handle is zero, and one warning
+/// names all skipped handles. The column of every other handle contains a one.
+///
+/// A component without any handle copies the weights of the handle nearest to the component, with a
+/// warning.
 ///
 /// @param region_ids region label of every original vertex, or empty if there are no regions.
 /// @param part_labels label of every vertex, or empty. Components that contain vertices with the

@@ -106,8 +106,8 @@ Status find_loose_parts(ExecutionContext& context, PointsView points, TrianglesV
   {
     return {};
   }
-  // Link surface components instead of parts of the lattice. Components that share a part of this
-  // lattice may be in separate parts of a finer lattice.
+  // Link surface components instead of parts of the lattice, because components that share a part
+  // of this lattice may be in separate parts of a finer lattice.
   const WeldedSurface welded(triangles, representative_of_vertex);
   const Index component_count = welded.components.count;
   std::vector<char> is_attached(static_cast<std::size_t>(component_count), 0);

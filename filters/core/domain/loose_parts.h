@@ -20,8 +20,8 @@ struct LooseParts
 };
 
 /// Link surface components at openings that other components cover (find_covered_openings). An
-/// opening counts as covered only if the distance of its boundary from other components is nowhere
-/// above 1/500 of the diagonal. There are no links if the surface has more than 20,000 components.
+/// opening counts as covered only if no point of its boundary is farther than 1/500 of the diagonal
+/// from the other components. There are no links if the surface has more than 20,000 components.
 /// @param representative_of_vertex #V: for each point, the smallest id of all points with the same
 /// position
 Status link_covered_openings(ExecutionContext& context, PointsView points, TrianglesView triangles,

@@ -28,8 +28,8 @@ constexpr double preparation_end = 0.5;
 using Lanes = Eigen::Array<double, 1, lanes>;
 /// Values of one block of columns, #V x lanes.
 using Columns = Eigen::Array<double, Eigen::Dynamic, lanes, Eigen::RowMajor>;
-/// Vectors (M + K)⁻¹ M (M + K)⁻¹ u in single precision: one row per point, one column per fixed
-/// point.
+/// One column per fixed point: the vector (M + K)⁻¹ M (M + K)⁻¹ u in single precision, one row per
+/// point. The energy term of the fixed point is u uᵀ (see SmoothingEnergy).
 using Responses = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// The matrix M + K M⁻¹ K of the energy at the points that are not fixed, with lengths in units of
@@ -219,7 +219,7 @@ private:
       });
     if (!completed)
     {
-      this->corrected_points_.clear(); // canceled: some solutions are missing
+      this->corrected_points_.clear(); // after a cancel, some columns of responses_ are missing
       return;
     }
     Eigen::MatrixXd correction_matrix = Eigen::MatrixXd::Identity(most, most);

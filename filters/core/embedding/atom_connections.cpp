@@ -105,7 +105,7 @@ private:
       });
   }
 
-  /// Connect atoms along the cut lines, and measure which length of each line is inside.
+  /// Connect atoms along the cut lines, and measure how much of each line is inside.
   Status connect_crossings()
   {
     const auto& list = this->crossings_;

@@ -4,8 +4,9 @@
 // center of the face (m), and the sign of that offset (s). The edge is parallel to the third axis
 // (n). With the center c of the lower cube and a, m, n as unit vectors, the nodes are
 //   c,   c + a,   c + (a + s m - n) / 2,   c + (a + s m + n) / 2.
-// Let d be the offset of a position from the center of its cube. The position is in the tet whose
-// axes a, m, n sort |d| in descending order. The barycentric coordinates are sums of these |d|.
+// Let d be the offset of a position from the center of its cube. Sort the axes by the absolute
+// values of d's components, largest first: the sorted axes are the axes a, m, n of the tet that
+// contains the position. The barycentric coordinates are sums and differences of d's components.
 #include "embedding/disphenoid_lattice.h"
 
 #include <algorithm>

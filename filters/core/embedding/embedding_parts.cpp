@@ -336,12 +336,12 @@ private:
         this->atoms_.samples_of_half[number] + this->atoms_.samples_of_half[number + 1];
       result.inside_fractions[t] = std::min(1.0, result.inside_fractions[t] / samples);
     }
-    // So far, a fraction is the inside volume of a tet, in cells of the sub-grid, divided by the
-    // number of samples in the tet. This number is 10 to 28, depending on the position of the tet
-    // in the sub-grid. The fractions are correct for whole tets, but plates aligned with the
-    // sub-grid would become too thick or too thin. The total inside volume has no such bias.
-    // Therefore the fractions of cut tets are scaled so that the sum of all fractions matches the
-    // total inside volume.
+    // At this point, the fraction of a tet is its inside volume, in cells of the sub-grid, divided
+    // by the number of samples in the tet. This number is 10 to 28, depending on the position of
+    // the tet in the sub-grid; the mean is `samples_of_tet`. Fractions of 1 are correct. Smaller
+    // fractions have a bias: plates aligned with the sub-grid would become too thick or too thin.
+    // The total inside volume has no bias. Therefore the fractions below 1 are multiplied by one
+    // factor, from 0.5 to 2, so that the sum of all fractions matches the total inside volume.
     constexpr double samples_of_tet = CubeSamples::samples_per_cube / 12.0;
     const double whole_tets = (result.inside_fractions.array() >= 1.0).count();
     const double cut = result.inside_fractions.sum() - whole_tets;

@@ -24,8 +24,8 @@ struct EmbeddingTets
   /// Tets with dihedral angles of 60 and 90 degrees and positive volumes; no unused vertices.
   TetMesh mesh;
   /// #T: fraction of the tet's volume that is inside the surface, 0 … 1. If the tet has several
-  /// copies, each copy contains one part of the surface, and its fraction is that of the region
-  /// inside this part. The fractions are measured on lines that are a sixth of a cube apart. The
+  /// copies, each copy contains one part of the surface, and the fraction of a copy includes only
+  /// the inside of this part. The fractions are measured on lines a sixth of a cube apart. The
   /// total volume (sum of the fractions times the volume of a tet) is accurate to 1 % if there are
   /// 16 cubes along the longest side. The fraction of a single tet at the surface is accurate to
   /// about 0.1.

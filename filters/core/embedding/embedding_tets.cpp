@@ -1,9 +1,9 @@
-// The method of embed_surface(). The material is the surface and the region that it encloses. It is
-// divided into atoms, each in one lattice tet: a piece of a triangle, or a sample of the inside.
-// Two atoms are connected if the straight segment between them is completely in the material.
-// Connected atoms belong to the same copy of each node that their tets have in common. This is
-// valid because the tets around a node fill a convex body (a rhombic dodecahedron), which contains
-// the whole segment.
+// The method of embed_surface(). The material consists of the surface and the enclosed region. The
+// material is divided into atoms. Each atom is in one lattice tet: a piece of a triangle, or a
+// sample of the inside. Two atoms are connected if the straight segment between them is completely
+// in the material. Connected atoms belong to the same copy of each node that their tets have in
+// common. This is valid because the tets around a node fill a convex body (a rhombic dodecahedron),
+// which contains the whole segment.
 //
 // 1. Choose the lattice's spacing; find the tets and cubes that triangles pass through, and the
 //    cubes that are completely inside (lattice_cover.h).
@@ -21,8 +21,8 @@
 // 6. If the tets around a node contain only a thin slice of material, no line between samples may
 //    be in the slice. Therefore, nodes with several copies are tested again. Straight probes run
 //    from the atoms of one copy to the nearest atoms of another copy, and are tested against all
-//    triangles around the node. A probe in the plane of a triangle is tested beside the plane
-//    (material_probes.h).
+//    triangles around the node. A probe in the plane of a triangle is replaced by two probes, one
+//    on each side of the plane (material_probes.h).
 // 7. Parts of a tet with the same four copies of nodes become one tet.
 //
 // Every union keeps the smaller id, so the result does not depend on the order or the number of

@@ -56,8 +56,8 @@ public:
   enum class Kind : std::uint8_t
   {
     outside,
-    inside, ///< the cube contains no triangle, and its winding number is at least the threshold
-    cut ///< contains triangles, or is at an opening of the surface, where the inside ends
+    inside, ///< the cube has no triangle, and the winding number in it is at least the threshold
+    cut ///< the cube contains triangles, or an inside cube is adjacent to an outside cube here
   };
   static constexpr Index maximum_cubes = 4000000;
   /// Maximum number of cubes along the longest side.

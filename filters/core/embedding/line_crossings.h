@@ -10,8 +10,8 @@
 namespace bindpose
 {
 
-/// The intersection of a triangle with a line, the segment from a sample to the next one along an
-/// axis.
+/// The intersection of a triangle with a line. A line is the segment from a sample to the next
+/// sample along an axis.
 struct LineCrossing
 {
   using Key = LatticeCover::Key;

@@ -1,7 +1,7 @@
 // Tests of straight segments through the material (see material_probes.h). Triangles that cross a
 // segment divide it into intervals. The segment is in the material if the winding number reaches
 // the threshold everywhere in each interval. Near the openings of a surface, the winding number
-// varies within an interval, so that it is tested at several points.
+// varies within an interval. Therefore each interval is tested at several points.
 #include "embedding/material_probes.h"
 
 #include "base/disjoint_sets.h"
@@ -60,9 +60,9 @@ bool MaterialProbes::stays_inside(
     const Vec3 p = this->cover_.lattice.world_point(a + t * (b - a));
     return this->winding_.evaluate_at(p) >= this->threshold_;
   };
-  // Position of a test point, as a fraction of its interval. In symmetric models, the middle is
-  // often on a triangle, or on a cap of an opening, where a winding number takes a hundred times
-  // longer or more.
+  // Position of a test point, as a fraction of its interval. The middle (0.5) is avoided: in
+  // symmetric models, it is often on a triangle or on a cap of an opening, where the evaluation of
+  // a winding number takes at least a hundred times longer.
   constexpr double near_middle = 0.4717;
   // Most probes are rejected by this test.
   if (length > LineCrossing::merge_distance && !inside_at(near_middle))

@@ -42,9 +42,10 @@ public:
   /// two copies to `joined`.
   /// @param sides all copies of the node.
   /// @param triangles all triangles in the tets around the node; duplicates are allowed.
-  /// Cost: up to 12 probes per pair of copies, or 24 in a common plane. Each probe takes at least
-  /// one winding number per interval between its crossings with triangles, and 12 per cube edge of
-  /// its length.
+  /// Cost: up to 12 probes per pair of copies, or 24 if the probes are in the plane of a triangle.
+  /// Most probes fail after one winding number. A probe that is completely in the material takes at
+  /// least one winding number per interval between triangles. It also takes at least 12 winding
+  /// numbers per unit of length, where the unit is the edge of a cube.
   void connect(std::vector<Side> sides, std::vector<Id> triangles,
     std::vector<std::pair<Id, Id>>& joined) const;
 
@@ -53,10 +54,10 @@ private:
   /// triangles that can cross the segment.
   bool stays_inside(const Vec3& a, const Vec3& b, const std::vector<Id>& triangles,
     std::vector<double>& cuts) const;
-  /// Report whether the segment between two ends is completely in the material. If the segment lies
-  /// in the plane of the triangle at an end, test two copies of the segment, shifted by 1e-6 cubes
-  /// to either side: on a triangle, the winding number is the mean of both sides, so rounding
-  /// errors would decide.
+  /// Report whether the segment between two ends is completely in the material. On a triangle, the
+  /// winding number is the mean of the values on both sides, so rounding errors would decide the
+  /// test. Therefore, if the segment lies in the plane of the triangle at an end, test two copies
+  /// of the segment, shifted by 1e-6 cube edges to either side, and report whether one passes.
   bool connects(const End& from, const End& to, const std::vector<Id>& triangles,
     std::vector<double>& cuts) const;
   /// Test the 12 shortest segments between two sets of ends. Report whether one of them is

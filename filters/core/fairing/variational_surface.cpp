@@ -27,8 +27,9 @@ Status check_length(const char* array_name, Index count, Index vertices)
     std::to_string(vertices) + " vertices");
 }
 
-/// Convert the parameters to their own frame, and tangents and loads to both frames. A tangent is a
-/// derivative of the position by a parameter. A load is 2 `order` such derivatives.
+/// Convert the parameters to the parameter frame. Tangents and loads are derivatives of positions
+/// with respect to parameters, so they are scaled by both frames: tangents are derivatives of order
+/// 1, and loads are derivatives of order 2 * `order`.
 VariationalSurfaceOptions to_frame(const WorkingFrame& position_frame,
   const WorkingFrame& parameter_frame, VariationalSurfaceOptions options)
 {

@@ -51,8 +51,9 @@ struct VariationalSurfaceOptions
 };
 
 /// Smooth surfaces between constraints. Each coordinate of the free vertices solves a polyharmonic
-/// equation of order 1, 2 or 3. The Laplacian is that of a constant parameter domain. Method:
-/// Jacobson, Tosun, Sorkine, Zorin 2010, Mixed finite elements for variational surface modeling.
+/// equation of order 1, 2 or 3. The Laplacian is computed in a parameter domain that does not
+/// depend on the pose. Method: Jacobson, Tosun, Sorkine, Zorin 2010, Mixed finite elements for
+/// variational surface modeling.
 ///
 ///     VariationalSurface surface;
 ///     surface.bind(context, points, triangles, handles, options);  // once

@@ -28,8 +28,8 @@ Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> cotangent_weights(
 constexpr int tet_edges[6][2] = { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3 }, { 2, 3 } };
 
 /// Return the positive semi-definite stiffness matrix K (#V x #V): K_ij is minus the sum of the
-/// cotangent weights of edge ij over its elements. The sum of each row is 0. K is minus the
-/// cotangent Laplacian.
+/// cotangent weights of edge ij in all elements at this edge. The sum of each row is 0. K is minus
+/// the cotangent Laplacian.
 /// @param fractions one factor per element (the fraction of the element that contains material), or
 ///   empty for 1 everywhere
 SparseMatrix stiffness_matrix(

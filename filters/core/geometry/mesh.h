@@ -39,7 +39,7 @@ Status check_mesh(PointsView points, TetsView tets);
 
 /// Check that single precision is accurate enough for a shape. Return invalid_input if a coordinate
 /// is not finite or above 3.4e38, or if neighboring floats near the shape differ by more than a
-/// hundredth of the bounding-box diagonal. A shape of one position is valid.
+/// hundredth of the bounding-box diagonal. A shape whose points all coincide is valid.
 Status check_float_range(PointsView points);
 
 /// Return the signed volume by the divergence theorem, exact for closed, outward oriented surfaces.

@@ -23,8 +23,9 @@ struct TetFacet
   int side; ///< index of the facet in facet_corners
 };
 
-/// Return the 4 #T facets, sorted by vertices, then by tet, so that the two entries of a facet that
-/// two tets share are adjacent. Ids must be in range of the points. Cost: 0.1 us per facet.
+/// Return the 4 #T facets, sorted by vertices, then by tet. A facet between two tets has two
+/// entries, which are adjacent in this order. Ids must be in range of the points. Cost: 0.1 us per
+/// facet.
 std::vector<TetFacet> tet_facets(TetsView tets);
 
 } // namespace bindpose

@@ -12,12 +12,12 @@ namespace
 {
 constexpr double smallest_diagonal = 1e-102;
 constexpr double largest_diagonal = 1e102;
-constexpr int maximum_unscaled_exponent = 100; // of the diagonal
-constexpr double maximum_unmoved_distance = 1024.0; // in bounding-box diagonals
-constexpr double maximum_spacing = 1e-6; // of neighboring doubles, in bounding-box diagonals
+constexpr int maximum_unscaled_exponent = 100; // binary exponent of the bounding-box diagonal
+constexpr double maximum_unmoved_distance = 1024.0; // from the origin, in bounding-box diagonals
+constexpr double maximum_spacing = 1e-6; // distance of adjacent doubles, in bounding-box diagonals
 
-/// Return "coordinate x of point 17 is 1e+300" for the coordinate of the box's corners that is
-/// farthest from 0.
+/// Return a clause for messages, such as "coordinate x of point 17 is 1e+300". The clause names the
+/// coordinate of the box's corners that is farthest from 0.
 std::string farthest_coordinate(PointsView points, const Box& box)
 {
   const Vec3 distances = box.lower.cwiseAbs().cwiseMax(box.upper.cwiseAbs());
@@ -37,7 +37,8 @@ Status WorkingFrame::choose(
   PointsView points, const Box& box, const std::string& subject, WorkingFrame& frame)
 {
   frame = WorkingFrame();
-  // Half of the size and quotients, because the size and its squares can overflow.
+  // Compute with half of the size and with quotients, because the size and its squares can
+  // overflow.
   const Vec3 half_size = 0.5 * box.upper - 0.5 * box.lower;
   const double half_side = box.empty() ? 0.0 : half_size.maxCoeff();
   if (half_side == 0.0)
@@ -125,7 +126,7 @@ Points WorkingFrame::from_frame(PointsView points) const
 {
   if (this->is_identity())
   {
-    return points; // keeps the sign of zeros
+    return points; // adding a center of 0 would change -0 to +0
   }
   return (points / this->scale_).rowwise() + this->center_.transpose();
 }

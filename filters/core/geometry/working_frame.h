@@ -8,29 +8,31 @@
 namespace bindpose
 {
 
-/// The coordinates in which a kernel computes. They are the coordinates of the input, unless the
-/// input is extremely large or small or far from the origin. Then the frame moves the shape to the
-/// origin and scales it to a diagonal from 1 to 2, so that squares and volumes neither overflow nor
-/// underflow, and differences of coordinates lose no digits.
+/// The coordinates in which a kernel computes. Usually they are the coordinates of the input. If
+/// the input is extremely large or small, the frame scales the shape to a diagonal from 1 to 2, so
+/// that squares and volumes neither overflow nor underflow. If the input is far from the origin,
+/// the frame scales the shape in the same way and moves it to the origin, so that differences of
+/// coordinates lose no digits.
 ///
-/// The scale is a power of two, and a coordinate is moved only if the shape is much farther from 0
-/// than it is large. So the points of the shape are mapped to the frame and back without rounding.
+/// The scale is a power of two. The shape is moved along an axis only if its distance from the
+/// origin along this axis is much larger than its diagonal. Therefore the points of the shape are
+/// mapped to the frame and back without rounding.
 class WorkingFrame
 {
 public:
   /// Construct the identity.
   WorkingFrame() = default;
 
-  /// Choose the frame of a shape. The frame is the identity if the diagonal of the shape's bounding
-  /// box is at least 2^-100 and below 2^101 and the box is at most 1,024 diagonals from the origin
-  /// along each axis, or if the box is empty or a single point.
+  /// Choose the frame of a shape. The frame is the identity if the box is empty or a single point.
+  /// It is also the identity if the diagonal of the box is at least 2^-100 and below 2^101, and the
+  /// center of the box is at most 1,024 diagonals from the origin along each axis.
   ///
   /// Return invalid_input, with a coordinate and the id of its point, if
   /// - the diagonal is not between 1e-102 and 1e102, so the volume is not a normal number;
   /// - the shape is so far from the origin that neighboring doubles differ by more than 1e-6 of the
   ///   diagonal.
   /// @param box  the bounding box of all points that the shape uses
-  /// @param subject  the shape in messages, for example "the surface"
+  /// @param subject  name of the shape in messages, for example "the surface"
   static Status choose(
     PointsView points, const Box& box, const std::string& subject, WorkingFrame& frame);
 
@@ -47,12 +49,13 @@ public:
   Vec3 point_from_frame(const Vec3& point) const { return point / this->scale_ + this->center_; }
   Points from_frame(PointsView points) const;
 
-  /// Convert a length (power 1), an area (2), a volume (3) or a quantity per length (-1) of the
-  /// input.
+  /// Convert a length (power 1), an area (2), a volume (3) or a quantity per length (-1) between
+  /// the units of the input and the units of the frame.
   double size_to_frame(double size, int power) const;
   double size_from_frame(double size, int power) const;
 
-  /// Convert the numbers of a report with this key, if there are any, from the frame.
+  /// Convert the numbers that the report stores under `key`, if any, from the units of the frame to
+  /// the units of the input. `power` has the same meaning as in size_from_frame().
   void convert_report(Report& report, const std::string& key, int power) const;
 
   const Vec3& center() const { return this->center_; }

@@ -38,7 +38,7 @@ struct GltfError : std::exception
 
 // ---- Parsing -----------------------------------------------------------------------------------
 
-/// The files with buffers that a glTF file names.
+/// The buffer files to which a glTF file refers.
 struct BufferFiles
 {
   std::string folder; ///< the folder of the glTF file
@@ -139,7 +139,8 @@ tinygltf::Model parse(const std::string& content, BufferFiles& files)
   }
   for (const std::string& extension : model.extensionsRequired)
   {
-    // All other extensions can change the geometry of a mesh or a node.
+    // Accept extensions for materials and textures. All other extensions can change the geometry of
+    // a mesh or a node.
     if (extension.compare(0, 14, "KHR_materials_") != 0 &&
       extension.compare(0, 12, "KHR_texture_") != 0)
     {
@@ -996,7 +997,8 @@ std::optional<Track> read_track(const tinygltf::Model& model, const Accessors& a
   return track;
 }
 
-/// Return the times of the frames: the keys if they are evenly spaced, else 24 per second.
+/// Return the times of the frames: the times of the keys if these are evenly spaced, else the times
+/// at 24 frames per second.
 /// @param rate set to the number of frames per second.
 std::vector<double> frame_times(const std::vector<Track>& tracks, double& rate)
 {

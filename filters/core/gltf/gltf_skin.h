@@ -62,7 +62,7 @@ struct GltfSkin
   Weights weights;
   std::vector<GltfFrame> frames;
   double frames_per_second = 24.0;
-  /// The other files from which buffers were read; not used by write_gltf_skin().
+  /// Files besides the glTF file from which buffers were read; not used by write_gltf_skin().
   std::vector<std::string> buffer_files;
 };
 
@@ -123,8 +123,8 @@ Status write_gltf_skin(ExecutionContext& context, const std::string& path, const
 /// skinned mesh, all meshes are read, transformed by their nodes. Rows of weights are divided by
 /// their sums, and the joint "rest" that write_gltf_skin() adds is removed. The first animation
 /// that moves a joint is read. The animation is sampled at its keys if they are evenly spaced,
-/// otherwise at 24 frames per second. Buffers may be binary chunks, base64 in the file, or files in
-/// its folder or below it. Images are not read.
+/// otherwise at 24 frames per second. Buffers may be binary chunks, base64 in the glTF file, or
+/// separate files in or below the folder of the glTF file. Images are not read.
 ///
 /// Report: counts.vertices, counts.triangles, counts.joints, counts.frames, counts.skins,
 /// counts.animations, counts.materials, counts.unweighted_vertices, counts.skipped_primitives

@@ -150,7 +150,8 @@ Status check_handles(const Handles& handles)
       return Status::invalid_input(
         "handle '" + handle.name + "' has a coordinate that is not a finite number");
     }
-    // No shape that WorkingFrame::choose() accepts reaches this far, and squares are finite.
+    // All coordinates of shapes that WorkingFrame::choose() accepts are below this limit, and
+    // squares of coordinates up to this limit are finite.
     constexpr double largest_coordinate = 1e120;
     const double largest =
       std::max(handle.head.cwiseAbs().maxCoeff(), handle.tail.cwiseAbs().maxCoeff());

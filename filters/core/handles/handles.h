@@ -80,13 +80,14 @@ Handles from_frame(const WorkingFrame& frame, Handles handles);
 
 /// Check handles before a bind. Return invalid_input, naming the handle, if
 /// - the list is empty;
-/// - a name is empty or occurs twice, or is not UTF-8 without control characters;
-/// - a coordinate is not finite;
+/// - a name is empty, occurs twice, is not UTF-8, or contains control characters;
+/// - a coordinate is not finite, or its absolute value is above 1e120;
 /// - a bone has length zero;
 /// - two points, two bones or two cage vertices coincide: their positions differ by at most 1e-9 of
 ///   the diagonal of all handles' bounding box. The direction of a bone does not matter;
 /// - a parent is out of range or part of a cycle;
-/// - the corners of a cage element are not two or three different cage vertices.
+/// - the corners of a cage element are not two or three different cage vertices, or the first
+///   corner is not the handle that stores the element.
 Status check_handles(const Handles& handles);
 
 /// Check the regions among the handles. Return invalid_input if region_ids is neither empty nor of

@@ -166,7 +166,8 @@ private:
   void set_limits() const
   {
     // This process sets the limits of the child, so that programs without an option for limits are
-    // limited, too. Memory that the program has allocated in its first microseconds counts too.
+    // limited, too. The limits take effect some microseconds after the start. Memory that the
+    // program has allocated before then counts toward the memory limit.
     const rlimit none{ 0, 0 };
     ::prlimit(this->id_, RLIMIT_CORE, &none, nullptr);
     if (this->request_.memory_limit > 0)
@@ -334,8 +335,8 @@ Status run_child(ExecutionContext& context, const ChildRequest& request,
       return Status::canceled();
     }
     // Read all output before handling the end of the child, because the last line may explain a
-    // failure. If a grandchild keeps the pipe open, the output does not end. In this case, the
-    // child is finished as soon as it has ended and no output is ready.
+    // failure. If a grandchild keeps the pipe open, reading never reaches the end of the output. In
+    // this case, the loop ends as soon as the child has ended and no output is ready.
     if ((!open || ready_count == 0) && child.ended())
     {
       describe_end(child.finish(), end);

@@ -35,8 +35,8 @@ struct ChildRequest
 /// The way in which a program ended.
 struct ChildEnd
 {
-  /// Phrase for messages, such as "was ended by signal 11 (Segmentation fault)" or "ended with code
-  /// 7"; empty for code 0.
+  /// Phrase for messages, such as "was terminated by signal 11 (Segmentation fault)" or "failed
+  /// with exit code 7"; empty for exit code 0.
   std::string failure;
   bool killed_by_signal = false;
   bool timed_out = false; ///< whether the program was stopped at one of its time limits

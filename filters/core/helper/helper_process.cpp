@@ -63,7 +63,8 @@ Status check_end(const ChildEnd& end, const HelperOutput& lines, const HelperReq
   {
     return {};
   }
-  // The limit is named only where it can be the cause: after a crash, or if memory ran out.
+  // The message contains the memory limit only if the limit can be the cause of the failure: after
+  // a crash, or if memory ran out.
   const std::string limit = memory_limit_phrase(request.memory_limit);
   std::string message = request.name + " " + end.failure + (end.killed_by_signal ? limit : "");
   if (end.killed_by_signal)
@@ -101,9 +102,10 @@ std::string find_helper(const Helper& helper)
     return is_executable_file(chosen) ? std::string(chosen) : std::string();
   }
   std::vector<std::string> folders;
-  // Find the library that contains this function. The library is either in a plugin's folder or in
-  // lib/ or lib/ARCHITECTURE/ of the installation. The helper belongs to this library, so the
-  // folder of the executable, which can be that of python3, comes later.
+  // First search near the library that contains this function, because the helper belongs to this
+  // library. The library is either in a plugin's folder, or in lib/ or lib/ARCHITECTURE/ of the
+  // installation. The folder of the executable comes later, because the executable may be a
+  // program of another installation, such as python3.
   Dl_info info{};
   if (::dladdr(reinterpret_cast<void*>(&find_helper), &info) && info.dli_fname)
   {

@@ -15,7 +15,7 @@ namespace bindpose
 struct Helper
 {
   const char* program; ///< file name of the executable: "bindpose-mesher"
-  const char* variable; ///< environment variable that replaces its path: "BINDPOSE_MESHER"
+  const char* variable; ///< environment variable with the executable's path: "BINDPOSE_MESHER"
   const char* missing; ///< message if the executable is not found
 };
 
@@ -53,8 +53,9 @@ int anonymous_file(const char* name);
 
 /// Run a helper and wait for its end. The helper writes its result to standard output, which is the
 /// file descriptor `output`. On standard error, the helper prints lines of these forms: "progress
-/// FRACTION", "report KEY NUMBER", "error TEXT". Any other line was printed by a library before a
-/// failure and becomes part of the error message. The progress becomes that of the current phase.
+/// FRACTION", "report KEY NUMBER", "error TEXT". The fraction becomes the progress of the current
+/// phase. Any other line is output of a library. If the helper crashes, or fails without an "error"
+/// line, the last of these other lines becomes part of the error message.
 /// Return
 /// - unavailable: the helper is not found;
 /// - canceled: the context was canceled (the helper is killed within 20 ms);

@@ -1,7 +1,8 @@
 #ifndef bindpose_helper_helper_start_h
 #define bindpose_helper_helper_start_h
 
-// The other side of helper_process.h: functions for the main() of a helper executable.
+// Functions for the main() of a helper executable. An application runs such an executable by the
+// functions in helper_process.h.
 
 #include <map>
 #include <string>
@@ -27,7 +28,7 @@ double helper_number(const HelperOptions& options, const std::string& name, doub
 /// @return the file descriptor for the result.
 int start_helper(const HelperOptions& options);
 
-/// End the process with code 0, without the destructors of static objects of libraries.
+/// End the process with code 0, without calling the destructors of static objects of libraries.
 [[noreturn]] void end_helper();
 
 } // namespace bindpose

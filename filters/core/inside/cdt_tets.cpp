@@ -169,8 +169,8 @@ Status CdtTets::build(double seconds)
   return status;
 }
 
-/// Report whether the refinements and TetGen runs have used up their time budget. The last attempt,
-/// a Delaunay triangulation, does not count; it takes about a tenth of the budget.
+/// Report whether the refinements and TetGen runs have used up their time budget. The budget does
+/// not include the last attempt, a Delaunay triangulation, which takes about a tenth of the budget.
 bool CdtTets::time_budget_is_used() const
 {
   constexpr double base_limit = 8.0; // seconds
@@ -211,9 +211,9 @@ Status CdtTets::try_switches(const Perturbation& move, const MesherData& refined
     }
   }
   // Switch `T` sets the tolerance of TetGen's test for coplanar triangles. With the default of
-  // 1e-8, TetGen treats some cut triangles as coplanar although they are not, and crashes. More
-  // than these two sets of switches do not help: in an experiment with triangles on which TetGen
-  // crashed with both sets, only one in thirty other sets succeeded.
+  // 1e-8, TetGen treats some cut triangles as coplanar although they are not, and crashes. A third
+  // set of switches would not help: on triangles on which TetGen crashed with both of these sets,
+  // only one of thirty other sets succeeded (measured).
   std::vector<TetgenSetup> setups{ { "pYcAT1e-12", false }, { "pYAT1e-16", true } };
   if (move.jitter > 0.0)
   {
@@ -241,7 +241,7 @@ Status CdtTets::try_switches(const Perturbation& move, const MesherData& refined
     }
     if (this->timed_out_ || (!status.ok() && this->time_budget_is_used()))
     {
-      break; // other switches would reach the time limit too, or the time budget is used up
+      break; // other switches would reach the limit of a run too, or the time budget is used up
     }
     if (!is_finished() && this->wrong_volume_ && !fine_tried)
     {
@@ -286,13 +286,13 @@ Status CdtTets::try_tetgen(
   return this->evaluate_run(setup, move, this->run_tetgen(this->context_, setup, input));
 }
 
-/// Run TetGen with a limit of work. On furniture models, 98 % of the runs that succeed need less
-/// than half of this work. Thread-safe.
+/// Run TetGen with a limit on the number of evaluations of its predicates. On furniture models,
+/// 98 % of the successful runs need less than half of this number. Thread-safe.
 CdtTets::TetgenRun CdtTets::run_tetgen(
   ExecutionContext& context, const TetgenSetup& setup, const MesherData& input) const
 {
   const double seconds = 1.5 + 1e-4 * static_cast<double>(input.triangles.rows());
-  // The limit of time is for slow machines, and for endless loops without predicates.
+  // The time limit stops TetGen on slow machines and in endless loops that evaluate no predicates.
   constexpr double slack = 4.0;
   TetgenRun run;
   run.status = this->run_job(context,
@@ -321,8 +321,8 @@ Status CdtTets::evaluate_run(
 Status CdtTets::try_delaunay(const MesherData& refined)
 {
   const double start = this->context_.elapsed_seconds();
-  // A Delaunay triangulation need not contain the triangles. Nearly coincident vertices would only
-  // create slivers, so one vertex per small box is kept.
+  // The Delaunay triangulation need not contain the surface's triangles, so some vertices can be
+  // omitted. Nearly coincident vertices would create slivers, so one vertex per small box is kept.
   constexpr double box_size = 1e-7; // size of a box, in bounding-box diagonals
   MesherData input = refined;
   std::set<std::array<double, 3>> boxes;
@@ -548,7 +548,7 @@ Status CdtTets::segment_and_store(
   const double volume = tet_volumes(data.points, kept).sum();
   const double misfit = this->inside_.misfit(volume);
   // The graph cut may choose a smooth boundary at the cost of a wrong volume. If the misfit exceeds
-  // this, the labels of the threshold are used.
+  // this value, the tets are labeled by the threshold instead.
   constexpr double maximum_cut_misfit = 0.05;
   const bool fits = this->inside_.fits(volume) &&
     (method == SegmentationMethod::threshold || misfit <= maximum_cut_misfit);

@@ -1,8 +1,8 @@
 #ifndef bindpose_inside_cdt_tets_h
 #define bindpose_inside_cdt_tets_h
 
-// Method cdt of tetrahedralize(): constrained Delaunay tets by TetGen, of which those inside are
-// kept.
+// Method cdt of tetrahedralize(): TetGen computes constrained Delaunay tets, and the tets inside
+// the surface are kept.
 
 #include "base/execution.h"
 #include "geometry/tet_facets.h"
@@ -137,10 +137,12 @@ private:
   double diagonal_ = 0.0;
   double start_ = 0.0;
   double deadline_ = 0.0;
-  std::vector<Index> original_; ///< input ids of the first vertices of the current attempt
+  /// Input ids of the vertices that the current attempt takes from the input. These vertices come
+  /// first in the attempt's mesh.
+  std::vector<Index> original_;
   bool wrong_volume_ = false; ///< whether the last attempt gave tets with a wrong volume
   bool refinement_is_useless_ = false; ///< whether finer tets cannot improve the result
-  bool timed_out_ = false; ///< whether the last run of TetGen reached its time limit
+  bool timed_out_ = false; ///< whether the last run of TetGen reached its time or work limit
   double job_seconds_ = 0.0; ///< total duration of the refinements and the TetGen runs
   /// Whether the refinement was stopped because too many triangles cross each other.
   bool too_many_crossings_ = false;

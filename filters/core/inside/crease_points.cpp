@@ -35,7 +35,7 @@ CreasePoints find_creases(const RegionBoundary& region, const SizingField& field
 {
   const std::vector<TriangleSide> sides = sides_by_edge(region.triangles());
   const double smooth = cosine(angle);
-  // Pairs (vertex, other end of a crease edge), in both directions.
+  // The crease edges as pairs of vertex ids. Each edge is stored in both directions.
   std::vector<std::pair<Index, Index>> ends;
   std::vector<Vec3> edge_points;
   for (std::size_t i = 0, j = 0; i < sides.size(); i = j)

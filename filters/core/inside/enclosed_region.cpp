@@ -83,9 +83,9 @@ Status EnclosedRegion::sample(
     this->volume_error_ = 0.0;
     return status.usable() ? Status() : status;
   }
-  // Add samples until enough of them are inside, for at most about 0.2 s plus 20 us per triangle. A
-  // sample takes about 1 us with the fast method, 0.1 us per triangle with the direct method, and
-  // 0.1 us plus 15 ns per open edge with the other exact methods.
+  // Add samples until enough of them are inside. The time limit is about 0.2 s plus 20 us per
+  // triangle, but at most 2 s. A sample takes about 1 us with the fast method, 0.1 us per triangle
+  // with the direct method, and 0.1 us plus 15 ns per open edge with the other exact methods.
   const auto triangles = static_cast<double>(surface.triangles.rows());
   const WindingMethod method = this->winding_.method();
   const double cost = method == WindingMethod::fast ? 1.0

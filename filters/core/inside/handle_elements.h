@@ -25,8 +25,8 @@ Status check_handle_elements(const HandleElements& handle_elements);
 /// Result of sample_handle_elements().
 struct HandleSamples
 {
-  Points points; ///< sample points without duplicates
-  Index handle_point_count = 0; ///< number of points of the handles themselves; they come first
+  Points points; ///< the handles' points first, then the samples; no duplicates
+  Index handle_point_count = 0; ///< number of the handles' points at the start of `points`
 };
 
 /// Return the handles' points, followed by sample points on the handles' segments (at least one per

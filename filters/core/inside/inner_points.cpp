@@ -193,8 +193,9 @@ private:
     keys.erase(std::unique(keys.begin(), keys.end(), [](Key a, Key b) { return a >> 1 == b >> 1; }),
       keys.end());
     std::vector<char> good(keys.size(), 0);
-    // Convert the clearance from units of the edge length at the surface to units of the edge
-    // length at the point, which increases with the distance from the surface at the rate growth().
+    // `clearance` is in units of the edge length at the surface. Convert it to units of the edge
+    // length at the point. The edge length increases with the distance from the surface at the rate
+    // growth().
     const double least = clearance / (1.0 + clearance * this->sizes_.growth());
     const bool is_complete =
       parallel_for(this->context_, static_cast<Index>(keys.size()), cells_per_block,
@@ -277,7 +278,7 @@ double Interior::estimate_layer_cells(const SizingField& sizes) const
 
 namespace
 {
-/// Searches for the scale of the edge lengths that gives the wanted number of points. The number of
+/// Searches for the scale of the edge lengths that gives the target number of points. The number of
 /// points decreases with a power of the scale. The exponent depends on the surface: 3 in wide
 /// spaces, 2 in a layer at the surface, less if many triangles are near each other.
 class ScaleSearch
@@ -388,9 +389,9 @@ bool inner_points(ExecutionContext& context, const Interior& interior, SizingFie
   constexpr double most_growth = 1.0;
   const double target = static_cast<double>(std::max<Index>(1, maximum_count));
   ScaleSearch search(sizes.scale(), target);
-  // Before the first attempt, increase the scale of the edge lengths until the expected number of
-  // points is small enough. On most surfaces there are 4 to 20 points per cell of the layer at the
-  // surface.
+  // Before an attempt, increase the edge lengths until the expected number of points is small
+  // enough: first the growth rate, then the scale. The expected number is a low estimate, because
+  // most surfaces have 4 to 20 points per cell of the layer at the surface.
   const double first_scale = sizes.scale();
   const auto raise = [&]
   {

@@ -85,8 +85,8 @@ public:
   /// edge between a corner and a center is short; its length is sqrt(3)/2.
   bool is_long(Index v, Index w) const { return this->is_center(v) == this->is_center(w); }
 
-  /// Call body(tet) for the tets that cube (i, j, k) shares with its next cube along each of the
-  /// three axes. The first two vertices of a tet are centers, the last two are corners.
+  /// Call visit(tet) for the tets between cube (i, j, k) and the next cube along each of the three
+  /// axes. The first two vertices of a tet are centers, the last two are corners.
   template <typename Visitor>
   void tets_of_cube(Index i, Index j, Index k, const Visitor& visit) const
   {
@@ -429,8 +429,9 @@ private:
     }
   }
 
-  /// Fill the inside of a tet with two + vertices a, b and two - vertices c, d: a prism with the
-  /// ends (a, ac, ad) and (b, bc, bd). The prism's face (ac, ad, bd, bc) is on the boundary, so no
+  /// Add tets for the part of a lattice tet that is inside the region. The lattice tet has two +
+  /// vertices a, b and two - vertices c, d. The part inside is a prism with the ends (a, ac, ad)
+  /// and (b, bc, bd). The prism's face (ac, ad, bd, bc) is on the boundary of the region, so no
   /// other tet determines its diagonal. The diagonal that maximizes the smallest dihedral angle is
   /// used.
   void fill_wedge(Index a, Index b, Index c, Index d, std::vector<Tet>& out) const
@@ -440,12 +441,12 @@ private:
     for (const bool free_at_first : { true, false })
     {
       // The quadrilaterals of the prism are (a, b, bc, ac), (ac, bc, bd, ad) and (ad, bd, b, a).
-      // Either diagonal of the second one is allowed.
+      // Either diagonal of the second quadrilateral is allowed.
       std::vector<Tet> tets;
       const std::array<Index, 3> top{ a, this->cut_vertex(a, c), this->cut_vertex(a, d) };
       const std::array<Index, 3> bottom{ b, this->cut_vertex(b, c), this->cut_vertex(b, d) };
-      // Quadrilateral k of the prism is between corners k and k + 1. Its diagonal starts at the top
-      // of corner k or k + 1.
+      // Quadrilateral k of the prism is between corners k and k + 1. Its diagonal starts at top[k]
+      // (true) or at top[k + 1] (false).
       const std::array<bool, 3> diagonal_at_top{ this->diagonal_at_first(a, b, c), free_at_first,
         !this->diagonal_at_first(a, b, d) };
       if (!split_prism(top, bottom, diagonal_at_top, tets))
@@ -468,8 +469,9 @@ private:
     out.insert(out.end(), best.begin(), best.end());
   }
 
-  /// Fill the inside of a tet with three + vertices and one - vertex: a prism with the ends (a, b,
-  /// c) and their three cut points.
+  /// Add tets for the part of a lattice tet that is inside the region. The lattice tet has three +
+  /// vertices and one - vertex. The part inside is a prism: one end is the triangle of the three +
+  /// vertices, the other end is the triangle of the three cut points.
   void fill_cut_corner(const std::array<Index, 3>& plus, Index minus, std::vector<Tet>& out) const
   {
     std::array<Index, 3> bottom{};

@@ -26,8 +26,9 @@ struct RemeshOptions
   /// Maximum expected number of tets, >= 1000. If more tets are expected, smallest_edge is
   /// increased.
   double tet_limit = 5e5;
-  /// Maximum fraction (0 … 1) of the boundary's area where the region, or the gap next to it, is
-  /// thinner than smallest_edge. If the fraction is larger, remesh_tets() fails before it refines.
+  /// Maximum fraction (0 … 1) of the boundary, by area, at which the region or the gap next to the
+  /// region is thinner than smallest_edge. If the fraction is larger, remesh_tets() fails before it
+  /// refines.
   double maximum_thin_fraction = 1.0;
   double time_limit = 60.0; ///< seconds (> 0) after which the helper is killed
   Index memory_limit = 0; ///< largest address space of the helper in MiB, 0: no limit
@@ -53,8 +54,9 @@ struct RemeshResult
 /// which surfaces cross.
 ///
 /// The report contains the counts of the helper, seconds.*, thin_fraction (see
-/// maximum_thin_fraction; also if this limit was exceeded), counts.kept_vertices,
-/// counts.boundary_vertices, distance_max and distance_mean (percent of the bounding-box diagonal).
+/// maximum_thin_fraction), counts.kept_vertices, counts.boundary_vertices, distance_max and
+/// distance_mean (percent of the bounding-box diagonal). The report of a failure contains
+/// thin_fraction if this fraction exceeded the limit.
 ///
 /// Return invalid_input if a coordinate is not finite, an id is out of range, the surface is flat,
 /// an option is out of range, or the surface encloses no volume; unavailable if there is no helper;

@@ -75,7 +75,8 @@ double SizingField::bound(const Node& node, const Vec3& p) const
 double SizingField::at(const Vec3& p) const
 {
   double best = this->largest_;
-  // Nodes are split at the median, so the stack is large enough.
+  // Nodes are split at the median, so the depth of the tree is logarithmic in the number of sites.
+  // Therefore 128 entries are always sufficient.
   std::array<std::pair<Index, double>, 128> stack;
   std::size_t top = 0;
   if (!this->nodes_.empty())

@@ -79,8 +79,9 @@ bool measure(ExecutionContext& context, const std::vector<Sample>& samples,
       {
         if (samples[i].weight > 0.0)
         {
-          // The distance grows by at most the distance between two consecutive samples. If rounding
-          // errors exclude the nearest triangle, search without a limit.
+          // The distance to the surface increases by at most the distance between this sample and
+          // the last one. This gives a limit for the search. If rounding errors exclude the nearest
+          // triangle, search without a limit.
           limit += (samples[i].point - last).norm();
           distances[i] = tree.distance(samples[i].point, limit);
           if (distances[i] == infinity)

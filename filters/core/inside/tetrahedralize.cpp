@@ -321,7 +321,7 @@ private:
 
   /// Compute tets after method cdt has failed. A cut lattice takes a second at most, and usually
   /// has the right volume. If the volume is wrong, run the Delaunay refinement, which takes ten
-  /// times as long. If that fails, cut a finer lattice.
+  /// times as long. If the refinement fails, cut a finer lattice.
   Status replace_cdt()
   {
     const Index finest = this->finest_remesh_resolution();
@@ -350,7 +350,7 @@ private:
     }
     refine();
     // A region that is too thin for the refinement is too thin for the finer lattice, unless the
-    // coarser lattice contains half of its volume.
+    // coarser lattice contains half of the region's volume.
     const bool is_too_thin = refined.report.number("thin_fraction", 0.0) > maximum_thin_fraction &&
       !this->lattice_is_usable();
     if (refined.ok() || refined.code == StatusCode::canceled)
@@ -379,8 +379,8 @@ private:
     return refined.ok() ? this->keep_if_better(cut) : cut();
   }
 
-  /// Cut lattices of `first` cubes along the longest side, of twice as many, and so on up to
-  /// `last`, until one has the right volume.
+  /// Cut a lattice of `first` cubes along the longest side. Double the number of cubes, up to
+  /// `last`, until the tets have the right volume.
   Status remesh_by_lattice(Index first, Index last)
   {
     Status status;
@@ -435,7 +435,8 @@ private:
     return status;
   }
 
-  /// Report whether lattice tets have been kept whose volume differs at most by a factor of two.
+  /// Report whether lattice tets are stored whose volume is at most twice, and at least half, the
+  /// volume of the region.
   bool lattice_is_usable() const { return this->lattice_misfit_ <= maximum_misfit; }
 
   Index remesh_resolution() const
@@ -491,7 +492,8 @@ private:
     options.smallest_edge = shortest * cube;
     options.largest_edge = longest * cube;
     options.memory_limit = this->options_.memory_limit;
-    // Time limit: the time that remains after method cdt, minus some time for the lattice.
+    // The refinement may use the time that remains after method cdt, minus a reserve for the
+    // lattice, but at least a quarter of the time limit.
     constexpr double minimum_fraction = 0.25;
     constexpr double lattice_fraction = 0.1;
     options.time_limit = std::max(this->time_left() - lattice_fraction * this->time_limit_,
@@ -682,8 +684,8 @@ private:
     return this->finish_remeshed(TetMethod::ftetwild);
   }
 
-  /// Check the volume. A wrong volume is accepted with a warning if it differs by at most a factor
-  /// of two.
+  /// Compare the volume of the tets with the volume of the region. If the volumes differ by at most
+  /// a factor of two, a wrong volume is accepted with a warning.
   Status check_volume()
   {
     const TetMesh& mesh = this->result_.mesh;
@@ -705,7 +707,8 @@ private:
     return {};
   }
 
-  /// Finish tets whose boundary only approximates the surface.
+  /// Complete the result for tets whose boundary only approximates the surface: mark all vertices
+  /// as new, and report the distance from the surface.
   Status finish_remeshed(TetMethod method)
   {
     this->mark_all_vertices_new(method);
@@ -851,8 +854,8 @@ private:
 
   /// Largest misfit of a usable result: a factor of two in volume.
   static constexpr double maximum_misfit = 0.6931471805599453;
-  /// Limit for RemeshOptions::maximum_thin_fraction in method automatic. The refinement gave a
-  /// wrong volume for every furniture model above it.
+  /// Value of RemeshOptions::maximum_thin_fraction in method automatic. Above this fraction, the
+  /// refinement gave a wrong volume for every furniture model.
   static constexpr double maximum_thin_fraction = 0.8;
   /// Threshold for the interior of a wrap. It does not depend on the options, because a wrap of any
   /// surface has the winding number 1 inside.
@@ -885,7 +888,7 @@ private:
   };
   Refinement refinement_;
   std::unique_ptr<SideTask> refinement_task_; ///< runs run_refinement(); null if it is not needed
-  const Report& preparation_report_; ///< report of prepare_surface(); each attempt starts with it
+  const Report& preparation_report_; ///< initial report of each attempt (prepare_surface())
   Report report_;
   AttemptLog log_;
   std::vector<std::string> warnings_;
@@ -975,8 +978,8 @@ const char* to_string(TetMethod method)
 
 namespace
 {
-/// Return a failure with the warnings and the report of the preparation, in the same form as the
-/// failures of the class Tetrahedralizer.
+/// Add the warnings and the report of the preparation to a failure. Failures of the class
+/// Tetrahedralizer already contain these warnings and this report.
 Status with_preparation_report(Status status, const PreparedSurface& prepared)
 {
   status.warnings.insert(
@@ -987,7 +990,8 @@ Status with_preparation_report(Status status, const PreparedSurface& prepared)
   return status;
 }
 
-/// Compute the tets in the working frame of the surface, and convert them from the frame.
+/// Convert the input to the working frame, compute the tets there, and convert the tets and the
+/// report back to input coordinates.
 Status tetrahedralize_in_frame(ExecutionContext& context, const WorkingFrame& frame,
   PointsView points, TrianglesView triangles, TetrahedralizeOptions options,
   TetrahedralizeResult& result)

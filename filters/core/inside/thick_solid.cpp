@@ -1,6 +1,6 @@
 // Closed surfaces of a given resolution around thin or open triangles. The winding number and a
-// layer around thin parts define a region, from which isosurface stuffing computes tets; their
-// boundary is the result.
+// layer around thin parts define a region. Isosurface stuffing computes tets of this region. The
+// result is the boundary of the tets.
 #include "inside/thick_solid.h"
 
 #include "base/parallel.h"

@@ -41,8 +41,8 @@ struct WrapOptions
 /// Return invalid_input if a coordinate is not finite or larger than 1e100, an id is out of range,
 /// there are no triangles, all points are equal, or an option is out of range; unavailable if there
 /// is no helper; internal_error if the helper failed or exceeded its time or memory limit. Cost:
-/// about 0.13 ms per triangle of the wrap. With the defaults the wrap of an elephant has 5,000
-/// triangles, with half the alpha 12,000.
+/// about 0.13 ms per triangle of the wrap. With the default options, the wrap of an elephant has
+/// 5,000 triangles. With half of the default alpha, it has 12,000 triangles.
 Status wrap_surface(ExecutionContext& context, PointsView points, TrianglesView triangles,
   const WrapOptions& options, Points& wrap_points, Triangles& wrap_triangles);
 

@@ -12,8 +12,9 @@ namespace bindpose
 
 namespace
 {
-/// Largest number of rows or columns of an empty matrix. An empty matrix has no values in the file,
-/// so without a limit a loop over rows or columns could be endless.
+/// Maximum number of rows or columns of an empty matrix. An empty matrix has no values in the file,
+/// so the size of the file does not limit these numbers. Without a limit, a loop over the rows or
+/// columns of an invalid file could take hours.
 constexpr Index largest_empty = Index(1) << 20;
 
 Status read_size(TextScanner& scanner, Index& columns, Index& rows)

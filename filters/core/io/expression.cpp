@@ -65,7 +65,8 @@ class ExpressionParser::Impl
 public:
   Impl()
   {
-    // Define only the documented functions, because muParser's own ones depend on its version.
+    // Define only the documented functions, because the built-in functions of muParser depend on
+    // the version of muParser.
     this->parser_.ClearFun();
     this->parser_.ClearConst();
     this->define("abs", std::fabs);

@@ -1,7 +1,7 @@
 // Reader and writer of STL files, which contain a triangle soup (see stl.h). A binary file contains
 // 80 bytes, a count, and 50 bytes per triangle. A text file contains the words "vertex x y z"
-// between other words. A binary file may also begin with the word "solid", so a file whose size
-// follows from its count is binary.
+// between other words. Both formats may begin with the word "solid". Therefore a file is read as
+// binary if its size is 84 bytes plus 50 bytes times its triangle count.
 #include "io/stl.h"
 
 #include "io/text_scanner.h"

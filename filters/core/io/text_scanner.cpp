@@ -186,14 +186,15 @@ void append_index(std::string& text, Index value)
 TextScanner::TextScanner(std::string path, std::string_view text, char comment)
   : path_(std::move(path)), text_(text), comment_(comment)
 {
-  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; // some editors begin files with it
+  // Some editors begin text files with a byte order mark.
+  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
   if (text.substr(0, byte_order_mark.size()) == byte_order_mark)
   {
     this->next_ = byte_order_mark.size();
   }
   if (text.find('\n') == std::string_view::npos)
   {
-    this->line_end_ = '\r'; // files of old programs
+    this->line_end_ = '\r'; // some old programs end lines with CR only
   }
 }
 

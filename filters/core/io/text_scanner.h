@@ -29,9 +29,10 @@ bool parse_index(std::string_view text, Index& value);
 void append_number(std::string& text, double value);
 void append_index(std::string& text, Index value);
 
-/// Splits a text into words, line by line. Blanks separate words. A comment extends from its
-/// character to the end of the line. A byte order mark of UTF-8 at the beginning is skipped. Lines
-/// end with LF, CR LF, or CR if the text has no LF. The text must outlive the scanner.
+/// Splits a text into words, line by line. Blanks separate words. A comment extends from the
+/// comment character to the end of the line. A byte order mark of UTF-8 at the beginning is
+/// skipped. Lines end with LF or CR LF; if the text has no LF, lines end with CR. The text must
+/// outlive the scanner.
 class TextScanner
 {
 public:

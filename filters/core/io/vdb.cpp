@@ -209,9 +209,9 @@ void spread_along_line(
   found.assign(static_cast<std::size_t>(size), 0);
   for (const unsigned char side : { below, above })
   {
-    // Index of the last visited entry with this side. The initial value represents the samples
-    // outside: if they have this side, it is the index next to the line. Otherwise it is an index
-    // that is too far from the line to have an effect.
+    // Index of the last visited entry whose bit mask contains `side`. The initial value represents
+    // the samples beyond the end of the line. If these samples are on `side`, the initial value is
+    // the index next to the line; otherwise, it is too far from the line to have an effect.
     Index last = outside & side ? -1 : -width - 1;
     for (Index i = 0; i < size; ++i)
     {

@@ -164,11 +164,11 @@ struct BlockTree
   std::vector<int> parent; // index of the parent in `node`; -1: no parent
 };
 
-/// Return the elimination tree of a block. If row i is in column j of the factor, each later row of
-/// column j is also in column i. Consider the rows of a supernode s that are below its own columns
-/// and whose unknowns are in the block. The parent of s is the supernode that eliminates the first
-/// of these rows. This is also correct if the parent of s in the whole factor has no column in the
-/// block.
+/// Return the elimination tree of a block. Consider the rows of a supernode s that are below its
+/// own columns and whose unknowns are in the block. The parent of s is the supernode that
+/// eliminates the first of these rows. Reason: if row i is in the pattern of column j, all later
+/// rows of column j are also in the pattern of column i. The rule is also correct if the parent of
+/// s in the whole factor has no column in the block.
 /// @param in_block  whether the unknown of a step is in the block
 template <typename InBlock>
 BlockTree tree_of_block(const Analysis& analysis, const InBlock& in_block)
@@ -429,8 +429,8 @@ Status FloatCholesky::analyze(const SparseSolver& solver, const SparseMatrix& ma
 }
 
 #ifdef BINDPOSE_HAS_CHOLMOD
-/// Write the entries of the scaled matrix to the block of a supernode's columns. front_index_of_row
-/// contains the rows of this supernode.
+/// Write the entries of the scaled matrix to the block of a supernode's columns. The caller must
+/// have set front_index_of_row for the rows of this supernode.
 void FloatCholesky::Impl::scatter(const SparseMatrix& matrix, double shift, int s)
 {
   const Analysis& shared = *this->analysis;

@@ -7,9 +7,9 @@
 //
 // A factorization is serial: the caller solves for several handles in parallel, and a threaded BLAS
 // would make results depend on the number of threads. CHOLMOD also assembles supernodes in OpenMP
-// regions of four threads. These threads would obstruct each other, so the regions are made
-// inactive for the call. The threaded build of OpenBLAS, configured to use one thread, is
-// preferable: the build without threads does not support concurrent calls (see SerialBlas).
+// regions of four threads. The threads of concurrent factorizations would obstruct each other, so
+// these regions are made inactive during a call. OpenBLAS should be the threaded build, configured
+// to use one thread: the build without threads does not support concurrent calls (see SerialBlas).
 #include "linear/sparse_solver.h"
 
 #include "base/memory.h"

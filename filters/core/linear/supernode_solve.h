@@ -15,9 +15,9 @@ constexpr int maximum_solve_columns = 8;
 /// effect.
 constexpr int factor_padding = 15;
 
-/// Solve L L' x = b in place, with a Cholesky factor in supernodes. Reading the factor twice
-/// dominates the time, so several columns take little more time than one column. The bits are the
-/// same on every machine.
+/// Solve L L' x = b in place, with a Cholesky factor in supernodes. Most of the time is spent on
+/// reading the factor twice from memory, so several columns take little more time than one column.
+/// The bits are the same on every machine.
 /// @param values blocks of the factor, column by column, followed by `factor_padding` floats;
 /// entries above the diagonal are not read
 /// @param x #unknowns x columns, row-major, in order of elimination

@@ -6,8 +6,9 @@ namespace bindpose
 
 Eigen::VectorXd symmetric_product(const SparseMatrix& a, const Eigen::VectorXd& x)
 {
-  // The sum over the columns of A adds each term to memory, whereas the transposed product writes
-  // each row only once. Therefore the sum is faster only if most columns are skipped.
+  // The sum over the columns of A adds each term to the result in memory. The transposed product
+  // writes each row of the result only once. Therefore the sum is faster only if many columns are
+  // skipped. It is used if at most this fraction of the entries of x is nonzero.
   constexpr double sparse_fraction = 0.4;
   const auto nonzeros = static_cast<double>((x.array() != 0.0).count());
   if (nonzeros > sparse_fraction * static_cast<double>(x.size()))

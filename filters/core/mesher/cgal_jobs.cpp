@@ -215,10 +215,10 @@ void add_pair_intersections(
     add_intersection(Exact::Segment_3(a.vertex(k), a.vertex(k + 1)), b, points, segments);
     add_intersection(Exact::Segment_3(b.vertex(k), b.vertex(k + 1)), a, points, segments);
   }
-  // Triangles in different planes have at most two points: the ends of the intersection segment.
-  // Triangles in one plane intersect in a single point, in a segment or in a polygon. In the last
-  // two cases, `segments` contains the segment or the outline of the polygon, and every point is an
-  // end of a segment.
+  // For triangles in different planes, `points` contains at most two points: the ends of the
+  // intersection segment. Triangles in one plane intersect in a single point, in a segment or in a
+  // polygon. In the last two cases, `segments` contains the segment or the outline of the polygon,
+  // and every point is an end of a segment.
   if (segments.empty() && points.size() == 2)
   {
     segments.emplace_back(points[0], points[1]);
@@ -424,15 +424,15 @@ std::string refine(MesherData& data, const RefineOptions& options)
 {
   const Stopwatch clock;
   Soup soup = soup_of(data);
-  // If there are fewer input faces than this, the growth limit is computed as if there were this
-  // many. (A few hundred large triangles can be cut into tens of thousands of pieces and still be
-  // meshed.)
+  // growth_limit is multiplied by the number of input faces, but at least by this number. Thus a
+  // few hundred large triangles can be cut into tens of thousands of pieces and still be meshed.
   constexpr std::size_t minimum_limited_faces = 10000;
   const auto face_limit = static_cast<std::size_t>(
     options.growth_limit * static_cast<double>(std::max(soup.faces.size(), minimum_limited_faces)));
   // An increase in the number of crossing pairs is ignored if there are at most this many pairs.
   constexpr std::size_t minimum_crossings = 64;
-  // The job gives up after this many rounds in which the number of crossings increased.
+  // After the input has been rounded, the job gives up if the number of crossings increases in this
+  // many rounds.
   constexpr int maximum_growing_rounds = 3;
   // Maximum number of crossing pairs. More pairs would exceed the time limit or the growth limit,
   // because each pair adds at least two triangles.

@@ -27,10 +27,10 @@ struct RefineOptions
 /// Split triangles along their intersections until they intersect only in shared vertices and
 /// edges. Input vertices keep their ids and coordinates; new vertices are appended. Triangles of
 /// zero area and duplicates are removed. If the number of crossings increases, the job starts again
-/// with input vertices rounded to about 2e-13 of the bounding-box diagonal. The job gives up as
-/// soon as it expects to exceed the time limit or the growth limit. The job reports
-/// counts.self_intersections (number of crossing pairs in the input), rounded (0 or 1), rounds, and
-/// too_many (1: the job gave up because of the number of crossings).
+/// with input vertices rounded to about 2e-13 of the bounding-box diagonal. The job gives up if the
+/// time limit or the growth limit is exceeded, or would be exceeded according to the number of
+/// crossings. The job reports counts.self_intersections (number of crossing pairs in the input),
+/// rounded (0 or 1), rounds, and too_many (1: the job gave up because of the number of crossings).
 /// @return empty, or the reason for giving up.
 std::string refine(MesherData& data, const RefineOptions& options);
 
@@ -38,10 +38,10 @@ std::string refine(MesherData& data, const RefineOptions& options);
 /// other or a point (z is ignored). Triangulate the convex hull of all points with the parts of the
 /// segments as edges. Input points keep their ids; new points are appended. If several points are
 /// equal, the first one is used. Triangles are counter-clockwise; the list is empty if all points
-/// are collinear. The job reports `rounds`. If `grid` is above 0, it must be a power of two to
-/// which the points are already rounded. New points are rounded to the grid. An edge that passes a
-/// point at less than half of the grid spacing is replaced by two edges through the point. The
-/// result has no details finer than the grid.
+/// are collinear. The job reports `rounds`. If `grid` is above 0, it is the spacing of a grid: a
+/// power of two, of which all coordinates of the input must be multiples. New points are rounded to
+/// the grid. An edge that passes a point at less than half of the grid spacing is replaced by two
+/// edges through the point. The result has no details finer than the grid.
 /// @return empty, or the reason for giving up.
 std::string arrange(MesherData& data, double grid = 0.0);
 
@@ -90,8 +90,9 @@ struct RemeshJobOptions
   /// the distance of the points.
   double growth = 0.3;
   double tet_limit = 5e5; ///< approximate maximum number of tets
-  /// Maximum fraction (0 to 1) of the boundary's area where the region, or the gap next to it, is
-  /// thinner than smallest_edge. If the fraction is larger, the job fails before it refines.
+  /// Maximum fraction (0 to 1) of the boundary, by area, at which the region or the gap next to the
+  /// region is thinner than smallest_edge. If the fraction is larger, the job fails before it
+  /// refines.
   double maximum_thin_fraction = 1.0;
 };
 

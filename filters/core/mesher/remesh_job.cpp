@@ -5,8 +5,8 @@
 //    parts of the surface that bound the region.
 // 2. The initial triangulation is built from points on the boundary, in this order: corners, other
 //    crease vertices, points on long crease edges, all other surface vertices, points in triangles.
-//    A point is omitted if an existing vertex is nearer than half the desired edge length (points
-//    in triangles: the desired edge length), because no good tet fits between them.
+//    A point is omitted if an existing vertex is too near, because no good tet fits between them.
+//    The limit is the desired edge length for points in triangles, and half of it for the others.
 // 3. Refinement inserts points of the boundary and circumcenters until facets and cells are small
 //    and round enough. Facets and cells smaller than a fraction of the desired length are never
 //    split. Therefore refinement ends even at creases that are too sharp for the required angles,
@@ -163,8 +163,8 @@ private:
   BoundedCellCriteria cells_;
 };
 
-/// Return the fraction of the boundary's area at which the region, or the gap next to it, is not
-/// thicker than smallest_edge.
+/// Return the fraction of the boundary, by area, at which the region or the gap next to the region
+/// is not thicker than smallest_edge.
 double thin_fraction(const BoundarySites& sites, double smallest_edge)
 {
   const double area = sites.areas.sum();

@@ -1,6 +1,6 @@
-// TetGen's shared library evaluates its predicates through the dynamic linker, which finds the
-// functions of the program first. So the predicates in this file count the evaluations
-// and call those of the library.
+// Counts the evaluations of TetGen's predicates. The dynamic linker searches the program before
+// TetGen's shared library. Therefore TetGen calls the predicates in this file. These predicates
+// count the evaluations and call the predicates of the library.
 #include "mesher/tetgen_work.h"
 
 #include "helper/helper_start.h"

@@ -4,11 +4,11 @@
 namespace bindpose
 {
 
-/// End the process by helper_fail() as soon as TetGen has evaluated its predicates orient3d() and
-/// insphere() more than `limit` times; report `work_limit_reached` = 1 and `work` before. On some
-/// inputs TetGen never ends. A limit of time would make the result depend on the speed of the
-/// machine; a limit of work does not. If TetGen is a static library, its work cannot be counted: it
-/// is 0, and the limit has no effect.
+/// Limit the number of evaluations of TetGen's predicates orient3d() and insphere(). As soon as the
+/// number exceeds `limit`, report `work_limit_reached` = 1 and `work`, then end the process by
+/// helper_fail(). The limit is needed because TetGen never ends on some inputs. With a time limit
+/// instead, the result would depend on the speed of the machine. If TetGen is a static library,
+/// evaluations cannot be counted: the reported `work` is 0, and the limit has no effect.
 void limit_tetgen_work(double limit);
 
 /// Report the number of evaluations so far as `work`.

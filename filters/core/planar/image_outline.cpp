@@ -8,9 +8,10 @@
 // between its neighbors p and n can be removed if the triangle p v n contains no other vertex. The
 // first passes try every second vertex at a quarter of the tolerance. On straight lines, every pass
 // halves the number of vertices, so each chain of contour points is tested only about log(length)
-// times. After these passes, each vertex in turn searches ahead. It is connected to the farthest
-// vertex for which the straight line is within the tolerance. On staircases of pixels, the lines to
-// nearer vertices often exceed the tolerance; the search continues beyond these vertices.
+// times. After these passes, a search along the contour starts from each remaining vertex in turn.
+// The vertex is connected to the farthest vertex for which the straight line is within the
+// tolerance. On staircases of pixels, the lines to nearer vertices often exceed the tolerance; the
+// search continues beyond these vertices.
 #include "planar/image_outline.h"
 
 #include <algorithm>
@@ -91,8 +92,8 @@ private:
     }
   }
 
-  /// Return the position of the threshold between the values a and b, as a fraction. It is never 0
-  /// or 1, so that no two vertices coincide.
+  /// Return the position of the threshold between the values a and b, as a fraction. The fraction
+  /// is never 0 or 1, so that no two vertices coincide.
   double crossing(float a, float b) const
   {
     constexpr double margin = 0x1p-10;
@@ -484,7 +485,7 @@ private:
   }
 
   /// Return the largest distance from the segment pn to the contour points between p and n. The
-  /// search ends when the limit is exceeded.
+  /// search stops at the first distance above the limit.
   double deviation(std::size_t loop, Index p, Index n, double limit) const
   {
     const std::vector<Vec2>& points = this->loops_.points;
@@ -523,8 +524,8 @@ private:
         {
           return false;
         }
-        // On a straight contour, the sides of the triangle are on one line. The tests of sides
-        // below accept the whole line.
+        // Test the bounding box first: on a straight contour, the three corners are on one line,
+        // and the tests of the sides below accept every point of this line.
         if ((points[u] - low).minCoeff() < -slack || (high - points[u]).minCoeff() < -slack)
         {
           return false;

@@ -97,8 +97,8 @@ public:
   Index count() const { return static_cast<Index>(this->points.size()); }
 
   std::vector<Vec2> points; ///< scaled
-  /// For each vertex, the lowest input id of the curve vertices that are merged in it; -1 if it is
-  /// only the point of a handle.
+  /// For each vertex, the lowest input id of the curve vertices that were merged into this vertex;
+  /// -1 if the vertex is only the point of a handle.
   std::vector<Index> originals;
   std::vector<Vec2> input_points; ///< input positions
 
@@ -199,9 +199,8 @@ Status Builder::scale()
     this->shift_[k] = lower[k] > size ? lower[k] : upper[k] < -size ? upper[k] : 0.0;
   }
   this->rounding_ = 0x1p-49 * farthest;
-  // The minimum height is the larger of two lengths: 2^-40 of the diagonal, which is smaller than
-  // any intended detail, and the accuracy of the coordinates. The minimum height is then rounded up
-  // to a power of two.
+  // The minimum height is the accuracy of the coordinates, but at least 2^-40 of the diagonal, and
+  // is rounded up to a power of two. Intended details are larger than 2^-40 of the diagonal.
   int exponent = 0;
   std::frexp(std::max(0x1p-40 * this->diagonal_, this->rounding_), &exponent);
   this->minimum_height_ = std::ldexp(1.0, exponent);
@@ -297,8 +296,8 @@ Status Builder::arrange()
 }
 
 /// Return the mean winding number of a triangle, by a quadrature rule of degree 5 with 7 points
-/// (Radon): the triangle's center, and for each corner two points on the line through the corner
-/// and the center, one on either side of the center.
+/// (Radon). One point is the triangle's center. For each corner, two points are on the line through
+/// the corner and the center, one on either side of the center.
 double Builder::mean_winding(Index triangle) const
 {
   const Vec2 a = this->point(this->data_.triangles(triangle, 0));

@@ -1,8 +1,8 @@
 // Singular values of the deformation gradient of each element.
 //
-// The gradient of a tet is (posed edges) (rest edges)^-1. One-sided Jacobi rotates its columns
-// until they are orthogonal; their lengths are then the singular values. This is also accurate to
-// round-off for collapsed tets.
+// The gradient of a tet is (posed edges) (rest edges)^-1. The one-sided Jacobi method rotates the
+// columns of the gradient until they are orthogonal. The lengths of the columns are then the
+// singular values. The method is accurate to round-off even for collapsed tets.
 //
 // The gradient of a triangle is 3 x 2, in a frame of its plane at rest, and its singular values
 // have a closed form.

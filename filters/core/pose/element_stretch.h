@@ -19,9 +19,9 @@ struct ElementStretchOptions
   bool values = false;
 };
 
-/// Largest and smallest stretch of each element: the factors by which a pose multiplies the lengths
-/// of line segments in the element, over all directions. 1 at rest; NaN for an element that is
-/// degenerate at rest.
+/// Largest and smallest stretch of each element. The stretch in a direction is the factor by which
+/// a pose multiplies the lengths of line segments with this direction in the element. It is 1 at
+/// rest, and NaN for an element that is degenerate at rest.
 struct ElementStretch
 {
   std::vector<double> largest;

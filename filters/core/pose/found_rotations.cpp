@@ -1,6 +1,6 @@
 // Choice of the modes of handles in mode `automatic`, for methods that compute rotations
-// themselves. The chosen mode of a handle depends on its transform in the world and relative to its
-// parent.
+// themselves. The chosen mode of a handle depends on its world transform and on its transform
+// relative to its parent.
 #include "pose/found_rotations.h"
 
 #include "pose/handle_hierarchy.h"

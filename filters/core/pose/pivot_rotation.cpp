@@ -1,5 +1,5 @@
-// One rotation for a whole pose, fitted to the covariance of the constrained pivots and tails and
-// of the transforms of handles in mode full (rotation_fit.h).
+// Fit of one rotation to a whole pose (rotation_fit.h). The covariance is a sum over the
+// constrained pivots and tails, and over the transforms of handles in mode full.
 #include "pose/pivot_rotation.h"
 
 #include "pose/rotation_fit.h"

@@ -42,7 +42,7 @@ Affine from_frame(const WorkingFrame& frame, const Affine& transform)
   Affine t = transform;
   if (frame.is_identity())
   {
-    return t; // keeps the sign of zeros
+    return t; // the sum below would change the sign of zeros
   }
   t.col(3) = t.col(3) / frame.scale() + frame.center() - t.leftCols<3>() * frame.center();
   return t;

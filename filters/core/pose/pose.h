@@ -76,12 +76,13 @@ Vec3 posed_tail(const Handle& handle, const HandlePose& pose);
 /// One HandlePose for each handle, in the order of the handles.
 using Pose = std::vector<HandlePose>;
 
-/// Convert the transforms of a pose to a frame, so that they map framed points to framed points.
+/// Convert the transforms of a pose from the original coordinates to the coordinates of a frame.
 Pose to_frame(const WorkingFrame& frame, Pose pose);
-/// Convert a transform of framed points to a transform of points.
+/// Convert a transform from the coordinates of a frame to the original coordinates.
 Affine from_frame(const WorkingFrame& frame, const Affine& transform);
 
-/// Largest absolute value in a pose, so that products of two transforms and positions are finite.
+/// Largest allowed absolute value in a pose. It ensures that the product of two transforms and a
+/// position is finite.
 constexpr double largest_pose_value = 1e102;
 
 /// Return invalid_input, with the name of the handle, if a number of its pose is not finite or is
@@ -101,9 +102,9 @@ Status check_mesh_and_handles(PointsView points, TetsView tets, const Handles& h
 /// Specifies in which modes (HandleMode) a method uses the stretch and the twist of a bone.
 enum class StretchUse : int
 {
-  tails, ///< the stretch in mode tail (skinning with one transform per bone)
-  ends, ///< the stretch in the modes tail and ends (methods that compute transforms)
-  all ///< stretch and twist in all modes (stretchable, twistable bones)
+  tails, ///< uses the stretch in mode tail (skinning with one transform per bone)
+  ends, ///< uses the stretch in the modes tail and ends (methods that compute transforms)
+  all ///< uses stretch and twist in all modes (stretchable, twistable bones)
 };
 
 /// Return a warning of one sentence if the pose has a stretch or a twist that the method does not

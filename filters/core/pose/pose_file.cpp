@@ -543,8 +543,9 @@ void place_handle(
   const Vec3 inherited_vector = inherited_tail - inherited_head;
   const Vec3 head = edit.head.value_or(inherited_head);
   const Vec3 bone = edit.tail.value_or(inherited_tail) - head;
-  // Both ends may coincide up to round-off, because one of them moves with the parent. In this case
-  // the ends define no direction, and the bone keeps the direction that it inherits.
+  // If the file gives only one end, the other end moves with the parent, and the two ends may
+  // coincide up to round-off. In this case the ends define no direction, and the bone keeps the
+  // direction that it inherits.
   constexpr double round_off = 1e-13;
   const double minimum_length =
     edit.head && edit.tail ? 0.0 : round_off * (head.stableNorm() + inherited_vector.stableNorm());

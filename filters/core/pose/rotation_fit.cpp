@@ -7,9 +7,9 @@
 // The fast path has no branches, so that several matrices are processed in parallel. The largest
 // eigenvalue is the largest root of N's characteristic quartic, whose roots are all real.
 // Laguerre's iteration converges to this root from above with third order, starting from an upper
-// bound. The eigenvector is a column of the adjugate of N - lambda, which for a simple eigenvalue
-// is p'(lambda) q q^T. One more step with the Rayleigh quotient removes the error due to round-off
-// in the coefficients of the quartic.
+// bound. For a simple eigenvalue lambda, the adjugate of N - lambda is -p'(lambda) q q^T, so each
+// nonzero column of the adjugate is an eigenvector. One more step with the Rayleigh quotient
+// removes the error due to round-off in the coefficients of the quartic.
 //
 // p'(lambda) is the product of the differences between lambda and the other eigenvalues. If
 // p'(lambda) is small, the best rotation is not unique or almost not unique (S has rank 1, or is a
@@ -152,8 +152,8 @@ struct FitBlock
   static constexpr int lanes = FitLimits<Scalar>::lanes;
   int groups; ///< number of groups in use
   Index begin[groups_per_block]; ///< first matrix of each group
-  /// Number of lanes at the start of each group that are skipped: their matrices are padding, or
-  /// the previous group fits them.
+  /// Number of lanes at the start of each group that are skipped, because their matrices are
+  /// padding or are fitted by the previous group.
   int skipped[groups_per_block];
   Scalar horn[10][groups_per_block * lanes];
   /// Coefficients of the quartic.

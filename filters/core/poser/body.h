@@ -16,7 +16,7 @@ namespace bindpose
 struct BodyOptions
 {
   double gravity = 0.5; ///< in bounding-box diagonals per second squared, 0 … 20
-  int down_axis = 1; ///< gravity points along this axis in its negative direction: 0 x, 1 y, 2 z
+  int down_axis = 1; ///< gravity acts in the negative direction of this axis: 0 x, 1 y, 2 z
   /// Stiffness in 1/s^2, range 1 … 1e5. Elastic waves cross the bounding-box diagonal
   /// sqrt(stiffness) times per second.
   double stiffness = 100.0;

@@ -9,9 +9,9 @@
 namespace bindpose
 {
 
-/// Poses by full as-rigid-as-possible (Sorkine and Alexa 2007): every vertex of the surface, or of
-/// the tets, is an unknown. With tets, the surface moves with the tets. A solve starts from the
-/// result of the last solve.
+/// Computes poses by full as-rigid-as-possible (Sorkine and Alexa 2007). Every vertex of the
+/// surface, or of the tets, is an unknown. With tets, the surface moves with the tets. A solve
+/// starts from the result of the last solve.
 class FullPoser : public Poser
 {
 public:
@@ -29,8 +29,8 @@ private:
   TetAnchors anchors_;
 };
 
-/// Poses by variational surfaces (Jacobson et al. 2010): the smooth surface that satisfies the
-/// constraints of the handles.
+/// Computes poses by variational surfaces (Jacobson et al. 2010). A posed shape is the smooth
+/// surface that satisfies the constraints of the handles.
 class VariationalPoser : public Poser
 {
 public:

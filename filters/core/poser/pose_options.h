@@ -36,8 +36,8 @@ bool needs_weights(PoseMethod method);
 bool is_skinning(PoseMethod method);
 /// Return the skinning method. The argument must be a skinning method.
 SkinningMethod to_skinning(PoseMethod method);
-/// Report whether the method is as-rigid-as-possible; it then computes the rotations that the pose
-/// does not prescribe.
+/// Report whether the method is one of the as-rigid-as-possible methods, which compute the
+/// rotations that the pose does not prescribe.
 bool finds_rotations(PoseMethod method);
 /// Return how the method uses the stretch and the twist of bones.
 StretchUse stretch_use(PoseMethod method);

@@ -7,9 +7,9 @@
 namespace bindpose
 {
 
-/// Poses by reduced as-rigid-as-possible (Jacobson et al. 2012), on the surface or in the tets. If
-/// the transforms are computed in the tets, the surface's points are moved by linear blend skinning
-/// with these transforms and with the weights at the surface's points.
+/// Computes poses by reduced as-rigid-as-possible (Jacobson et al. 2012), on the surface or in the
+/// tets. If the transforms are computed in the tets, the surface's points are moved by linear blend
+/// skinning with these transforms and with the weights at the surface's points.
 class ReducedPoser : public Poser
 {
 public:

@@ -9,8 +9,8 @@
 namespace bindpose
 {
 
-/// The frames of an animation: the surface's points, and for linear blends the transforms that
-/// moved them.
+/// The frames of an animation: the surface's points and, for linear blend skinning, the transforms
+/// that moved these points.
 struct PosedFrames
 {
   std::vector<Points> points;

@@ -7,9 +7,9 @@
 namespace bindpose
 {
 
-/// Poses by one of four skinning methods: linear blend, dual quaternions, stretchable bones and
-/// centers of rotation. Centers, endpoint weights and automatic pseudo-edges are computed by the
-/// first bind that needs them.
+/// Computes poses by one of four skinning methods: linear blend, dual quaternions, stretchable
+/// bones and centers of rotation. Centers, endpoint weights and automatic pseudo-edges are computed
+/// by the first bind that needs them.
 class SkinningPoser : public Poser
 {
 public:

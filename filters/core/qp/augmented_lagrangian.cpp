@@ -11,15 +11,16 @@
 //   A + B' diag(rho of the active pairs) B.
 // This matrix has the pattern of A, because pairs are edges of the mesh. So one ordering and one
 // symbolic analysis serve all columns. Each Newton system is solved by conjugate gradients. The
-// preconditioner is the last factor in single precision. Another factor is computed if conjugate
-// gradients do not converge in a few steps, because the active pairs have changed too much.
+// preconditioner is the last factor in single precision. If conjugate gradients do not converge in
+// a few steps, the active pairs have changed too much since this factor, and a new factor is
+// computed.
 //
 // The multipliers of active pairs need not be unique (pairs can form cycles if their direction is
 // ignored). The penalties make every step well-defined nevertheless. An active-set method that
 // treats active pairs as equations would have to remove redundant pairs.
 //
-// The result is x, changed as little as necessary to satisfy the pairs. The certificate is computed
-// for the result.
+// The final x is changed as little as necessary to satisfy the pairs. The certificate is computed
+// for this result.
 #include "qp/augmented_lagrangian.h"
 
 #include "base/stopwatch.h"
@@ -47,8 +48,9 @@ using Eigen::VectorXd;
 /// Penalties, as multiples of the smaller diagonal entry of A at the two vertices of a pair.
 constexpr double first_penalty = 3.0;
 constexpr double largest_penalty = 3e3;
-/// The penalties are raised under two conditions: the largest violation of a pair is still more
-/// than this fraction of the previous one, and the minimization took few Newton steps.
+/// The penalties are raised if two conditions hold. First, the largest violation of a pair is more
+/// than this fraction of the largest violation before the minimization. Second, the minimization
+/// took few Newton steps.
 constexpr double slow_decrease = 0.2;
 constexpr double penalty_factor = 4.0;
 constexpr int few_newton_steps = 3;
@@ -186,8 +188,8 @@ Status AugmentedLagrangian::factor()
   return status;
 }
 
-/// Return the direction of a Newton step. Vertices at bounds move as in a Newton step of the vertex
-/// alone; the other vertices minimize the quadratic model.
+/// Return the direction of a Newton step. Each vertex at a bound moves as in a Newton step of this
+/// vertex alone. The step of the other vertices minimizes the quadratic model.
 VectorXd AugmentedLagrangian::newton_direction()
 {
   const Index n = this->x_.size();
@@ -326,7 +328,7 @@ BoxQpSolution AugmentedLagrangian::run()
       if (this->violation_ <= tolerance && change <= maximum_converged_change)
       {
         has_converged = this->certify_iterate();
-        required_residual *= 0.2; // if the certificate fails, make the next one more accurate
+        required_residual *= 0.2; // after a failed certificate, require a smaller residual
       }
       if (has_converged)
       {

@@ -93,7 +93,8 @@ struct BoxQp::Impl : SplitForm
     const auto count = static_cast<double>(columns.size());
     const auto vertices = static_cast<double>(this->q.rows());
     const double in_double_precision = this->solver.factor_bytes();
-    // Memory per column: given values, minimizer without bounds, start, solution.
+    // Memory that does not depend on the number of workspaces: the factor of A, and five vectors
+    // per column for given values, minimizer without bounds, start and solution.
     const double shared_bytes =
       (in_single_precision ? this->single.factor_bytes() : in_double_precision) +
       5.0 * sizeof(double) * vertices * std::max(count, 1.0);

@@ -20,17 +20,17 @@ namespace bindpose
 /// If it has not converged after maximum_iterations, the status is not_converged, and the result is
 /// the best iterate with its certificate.
 ///
-/// Cost per column with CHOLMOD and eight columns, in units of F, the time of one factorization of
-/// Q in double precision:
+/// Cost per column for eight columns, in units of F, the time of one factorization of Q in double
+/// precision. The first three values are for CHOLMOD:
 /// - 3 to 6 F on lattices of real shapes with 9k to 11k vertices;
 /// - three to five times as much with the interior-point method;
 /// - 12 to 13 F with ordered pairs, on a box of 5k vertices;
 /// - 10 to 25 F with Eigen's solver.
 ///
-/// Memory, in units of one factor of Q in single precision: one for the common factor, one per
-/// thread for the factor of that thread, and one third per thread for the workspace of that thread
-/// (63k vertices: 1.4 GB in total with one thread). If single precision fails, each thread also
-/// stores a factor in double precision.
+/// Memory, in units of one factor of Q in single precision: 1 for the common factor, and 4/3 per
+/// thread (1 for the thread's factor and 1/3 for its workspace). With 63k vertices and one thread,
+/// the total is 1.4 GB. If single precision fails, each thread also stores a factor in double
+/// precision.
 ///
 /// Hintermueller, Ito and Kunisch 2003; Bertsekas 1982; Mehrotra 1992; Gondzio 1996; Jacobson et
 /// al. 2011 and 2012 for the problems.

@@ -22,8 +22,8 @@ struct OrderedPair
 /// difference between the energy of w and the minimum energy.
 ///
 /// Let ' denote the transpose. With ordered pairs G w >= h and their multipliers lambda >= 0, let
-/// d = Q w - G' lambda, else d = Q w. The dual of the quadratic program bounds the minimum from
-/// below, so that
+/// d = Q w - G' lambda. Without ordered pairs, let d = Q w. The dual of the quadratic program
+/// bounds the minimum from below, so that
 ///   gap = lambda' (G w - h) + sum over free vertices of max(d (w - l), -d (u - w))
 /// is a rigorous bound on E(w) - min E, independent of the method that computed w and lambda.
 ///

@@ -23,8 +23,8 @@ struct CoupledSolution
   int inner_iterations = 0; ///< iterations of conjugate gradients
 };
 
-/// Solve min sum of 1/2 w_j' Q w_j over all columns j, such that l <= w <= u, fixed and pinned
-/// values are kept, and rows sum to one.
+/// Minimize the sum of 1/2 w_j' Q w_j over all columns j. The constraints are l <= w <= u, the
+/// given values of fixed and pinned vertices, and rows that sum to one.
 ///
 /// The method is a primal-dual interior-point method that starts from nearly optimal rows. Each
 /// iteration computes one factorization per column, as in BoxQp, and finds the multipliers of the

@@ -357,7 +357,8 @@ InteriorPoint::Direction InteriorPoint::find_direction()
   this->step_lengths(d, primal, dual);
 
   constexpr int correctors = 5;
-  // Each corrector is computed for longer steps: both step lengths plus this value, but at most 1.
+  // Each corrector is computed for longer steps than the last direction allows: both step lengths
+  // are increased by this value, but to at most 1.
   constexpr double step_increase = 0.35;
   for (int k = 0; k < correctors && !this->context_.canceled(); ++k)
   {
@@ -414,8 +415,8 @@ void InteriorPoint::set_start(bool central)
     // used instead; the start satisfies bounds and pins.
     energy = feasible_energy;
   }
-  // Minimum of the slacks at the start. This value and the factor 10 for mu were measured on boxes
-  // and on real shapes. They require half as many iterations as mu = energy / number of slacks.
+  // Minimum of the slacks at the start. This value and the factor 10 in mu were measured on boxes
+  // and on real shapes. Without the factor, twice as many iterations are needed.
   constexpr double least = 1e-2;
   this->s_ = this->apply(this->x_) + this->h_;
   this->raise_slacks(least);
@@ -433,7 +434,8 @@ void InteriorPoint::balance_start()
   // 1e-3 and 0.5.
   constexpr double maximum_start_gap = 1.0;
   constexpr double least_slack = 1e-3;
-  // Factor of mu = factor * energy / number of slacks; 1 to 10 are equally good (measured).
+  // The new mu is at least mu_per_energy * energy / number of slacks. Values of mu_per_energy
+  // from 1 to 10 are equally good (measured).
   constexpr double mu_per_energy = 3.0;
   if (this->start_.mu > 0.0 && gap > maximum_start_gap)
   {
@@ -547,9 +549,9 @@ BoxQpSolution InteriorPoint::run()
   double newton_change_limit = 4e-5;
   int newton_attempts = 0;
   // 5 to 15 iterations are usual. If the form is very ill-conditioned (triharmonic energies of fine
-  // meshes), all step lengths can be too short after the start that was computed for all columns
-  // together. Then the solve begins again without this start after restart_after iterations. If
-  // it still has not converged after double_after iterations, it continues in double precision.
+  // meshes), the start that was computed for all columns together can lead to very short steps.
+  // Therefore the solve begins again without this start if it has not converged after restart_after
+  // iterations. After double_after iterations, the solve continues in double precision.
   constexpr int restart_after = 25;
   constexpr int double_after = 60;
   // With ordered pairs, the method stalls near the end if its factors are in single precision.

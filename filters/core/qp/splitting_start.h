@@ -15,9 +15,9 @@ struct ColumnStart
 {
   Eigen::VectorXd x; ///< the guess, one entry per free vertex, within the bounds; empty: no guess
   std::vector<char> at_bound; ///< per free vertex: 1 if x is given or expected to be at a bound
-  /// Barrier weight. If mu > 0, x is near a point of the central path, and `at_bound` is empty. A
-  /// point of the central path is the minimizer if the bounds of each vertex are replaced by the
-  /// barrier
+  /// Barrier weight. If mu > 0, x is near a point of the central path, and `at_bound` is empty. The
+  /// points of the central path minimize the energy plus a barrier instead of the bounds. The
+  /// barrier of each vertex is
   ///   -mu (log(x - l) + log(u - x)).
   double mu = 0.0;
 };

@@ -31,8 +31,8 @@ struct CancelException
 {
 };
 
-/// Residual capacities of the flow algorithm. Writes also check for a cancel request at intervals,
-/// because the algorithm has no callback.
+/// Residual capacities of the flow algorithm. The function put(), which writes a capacity, also
+/// checks for a cancel request every 65,536 calls, because the algorithm has no callback.
 struct Residuals
 {
   using key_type = Arc;

@@ -35,8 +35,8 @@ struct CutEnergy
 /// the one with the fewest nodes inside is returned. Cost: about 1 us per node and edge if the two
 /// costs of most nodes differ by more than the costs of their edges; ten times that if the two
 /// costs are almost equal.
-/// @return ok; canceled; or invalid_input if a cost is negative or not finite or a node is out of
-/// range.
+/// @return ok; canceled; or invalid_input if the numbers of inside and outside costs differ, if a
+/// cost is negative or not finite, or if an edge does not connect two different nodes in range.
 Status minimize(ExecutionContext& context, const CutEnergy& energy, std::vector<char>& inside);
 
 } // namespace bindpose

@@ -104,8 +104,8 @@ Status segment_tets(ExecutionContext& context, PointsView points, TetsView tets,
   result.energy = energy.evaluate(result.inside);
   if (result.energy >= result.threshold_energy)
   {
-    // The graph cut does not lower the energy. Use the labels of method threshold, which follow
-    // directly from the winding numbers.
+    // If the graph cut does not lower the energy, use the labels of method threshold, because they
+    // follow directly from the winding numbers.
     result.inside = threshold_labels;
     result.energy = result.threshold_energy;
   }

@@ -7,10 +7,10 @@
 //
 //     ( -sin a y - (1 - cos a) x,  sin a x - (1 - cos a) y,  0 )  +  e (stretch - 1) vector.
 //
-// With s = sin(a / 2) and c = cos(a / 2), sin a = 2 s c and 1 - cos a = 2 s^2. The values sin a and
-// 1 - cos a are exactly zero without a twist, and they do not change if s and c change their signs.
-// Therefore whole turns can be subtracted from a. The remaining angle is at most half a turn. The
-// power series are evaluated at a / 4, which is at most an eighth of a turn, so few terms suffice.
+// With s = sin(a / 2) and c = cos(a / 2), sin a = 2 s c and 1 - cos a = 2 s^2. These products are
+// exactly zero without a twist. Subtracting a whole turn from a changes the signs of both s and c,
+// but neither of the products. Therefore a is reduced to an angle of at most half a turn. The power
+// series are evaluated at a / 4, which is at most an eighth of a turn, so few terms suffice.
 #include "skinning/bone_moves.h"
 
 #include "base/packs.h"
@@ -25,13 +25,13 @@ namespace bindpose
 
 namespace
 {
-/// Number of terms of the series. Up to an eighth of a turn, the next term is smaller than the
-/// round-off.
+/// Number of terms of the power series. For angles up to an eighth of a turn, the first omitted
+/// term is smaller than the round-off.
 template <typename Scalar>
 constexpr int terms = sizeof(Scalar) == 4 ? 5 : 9;
 
-/// 1.5 * 2^23 for floats, 1.5 * 2^52 for doubles: adding and then subtracting this constant rounds
-/// a smaller number to an integer.
+/// Adding and then subtracting this constant rounds a much smaller number to the nearest integer.
+/// The constant is 1.5 * 2^23 for floats and 1.5 * 2^52 for doubles.
 template <typename Scalar>
 constexpr Scalar rounding_constant = sizeof(Scalar) == 4 ? 12582912.0 : 6755399441055744.0;
 
@@ -114,7 +114,7 @@ BINDPOSE_ALWAYS_INLINE void add_tile_moves(const std::int32_t* columns, const Sc
           endpoint_weights[i - begin] = static_cast<Scalar>(from[i * handles]);
         }
         e = endpoint_weights == endpoint_weights ? endpoint_weights
-                                                 : e; // NaN selects the position along the bone
+                                                 : e; // an endpoint weight of NaN is replaced by e
       }
       const Pack w = pack_at(weights + k * tile_lanes + begin);
       const Pack longer = w * e;
@@ -132,7 +132,8 @@ BINDPOSE_ALWAYS_INLINE void add_tile_moves(const std::int32_t* columns, const Sc
         sum_series<1, Scalar>(square, fourth, sine);
         sum_series<0, Scalar>(square, fourth, cosine);
         sine *= part;
-        // s / 2 and c; (sin a) / 4 = (s / 2) c and (1 - cos a) / 4 = 2 (s / 2)^2
+        // With s = sin(a / 2) and c = cos(a / 2), compute half_s = s / 2 and c. Then
+        // (sin a) / 4 = half_s c and (1 - cos a) / 4 = 2 half_s^2.
         const Pack half_s = sine * cosine, c = one - (sine + sine) * sine;
         const Pack half_sw = half_s * w;
         const Pack sin_w = half_sw * c, versine_w = half_sw * (half_s + half_s);
@@ -199,8 +200,8 @@ BoneFrames<Scalar> bone_frames(
       }
       frame.coordinates[axis][3] = static_cast<Scalar>(origin[axis]);
     }
-    // 1 / length of a very short bone can exceed the largest Scalar. It is clamped because 0 times
-    // infinity is not 0.
+    // For a very short bone, 1 / length can exceed the largest Scalar. The value is clamped,
+    // because the product of 0 and infinity would be NaN.
     frame.per_length =
       static_cast<Scalar>(std::min(1.0 / length, 1.0 * std::numeric_limits<Scalar>::max()));
     // If the number of turns is too large to be rounded to an integer, the angle is meaningless.

@@ -2,9 +2,10 @@
 // for bones.
 //
 // At a vertex v each position p of a handle has the weight w = (r / |p - v|)^(2 exponent), where r
-// is the distance of the nearest handle. The factor r avoids overflow and underflow. Let p* and q*
-// be the weighted means of rest and posed positions. The rotation R maximizes the sum of w (q - q*)
-// . R (p - p*), and v' = R (v - p*) + q*.
+// is the distance of the nearest handle. The factor r avoids overflow and underflow. Let q be the
+// posed position of p, and let p* and q* be the weighted means of rest and posed positions. The
+// rotation R maximizes the sum of w (q - q*) . (R (p - p*)) over all positions. The posed position
+// of v is R (v - p*) + q*.
 //
 // The positions p(t) and q(t) on a bone are linear functions of the parameter t. A warp therefore
 // needs only three values per bone: the total weight (amount), and the weighted mean and variance
@@ -16,7 +17,8 @@
 // Gauss points, which gives nine correct digits for any distance between v and the bone.
 //
 // If a vertex is on a handle, its distance from the handle is set to 1e-12 of the handles' extent.
-// Then the vertex moves with this handle to twelve digits, and no division by zero occurs.
+// Then the motions of the vertex and the handle agree to twelve digits, and no division by zero
+// occurs.
 #include "skinning/moving_least_squares.h"
 
 #include "base/parallel.h"
@@ -264,8 +266,8 @@ Status MovingLeastSquares::warp(
       const Index size = end - begin;
       Points rest_means(size, 3);
       Points posed_means(size, 3);
-      // Matrices are stored in planes, as fit_rotations() requires. The fits start from the
-      // identity.
+      // Each column contains one entry of all 3 x 3 matrices, as fit_rotations() requires. The
+      // fits start from the identity.
       Eigen::MatrixXd s = Eigen::MatrixXd::Zero(size, 9);
       Eigen::MatrixXd rotations = Eigen::MatrixXd::Zero(size, 9);
       rotations.col(0).setOnes();

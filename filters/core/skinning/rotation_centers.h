@@ -23,7 +23,7 @@ struct RotationCentersOptions
   /// For each pair of handles, elements with similar weights are grouped. Within a group, weights
   /// differ by at most this value (>= 0) and are replaced by their mean. 0: only equal weights are
   /// grouped, which is the exact formula. With 0.015, centers move by less than a thousandth of the
-  /// shape.
+  /// size of the shape.
   double group_size = 0.015;
 };
 

@@ -144,7 +144,7 @@ SplitMap split(const Eigen::Matrix3d& linear)
   if (map.shear.norm() <= 1e-14)
   {
     map.shear.setZero();
-    map.rotation = linear; // the map is already rigid; the fit would only round it
+    map.rotation = linear; // the map is already a rotation; the fitted one has rounding errors
   }
   return map;
 }

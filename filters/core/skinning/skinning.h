@@ -32,9 +32,9 @@ struct SkinningOptions
   /// Maximum number of weights per row. The largest ones are kept; if several are equal, those in
   /// the first columns. 0: all weights are kept.
   Index influences = 0;
-  /// Point near the shape. Positions are computed relative to it, because single precision is most
-  /// accurate near 0. Empty: the mean of a few of the rest points. With a given center, the result
-  /// of a vertex has the same bits in every subset of the vertices.
+  /// A center near the shape. Positions are computed relative to the center, because single
+  /// precision is most accurate near 0. Empty: the mean of a few of the rest points. If a center is
+  /// given, the result of a vertex has the same bits whichever other vertices are computed with it.
   std::optional<Vec3> center;
 };
 

@@ -33,13 +33,14 @@ constexpr Index tile_lanes = WeightTiles<Scalar>::lanes;
 template <typename Scalar, int bytes>
 constexpr int part_lanes = PackOf<Scalar, bytes>::lanes;
 
-/// The different reference handles of the vertices in a part of a tile. Each has a mask of the
-/// lanes whose vertices use it.
+/// The distinct reference handles of the vertices in a part of a tile. For each of these handles, a
+/// mask selects the lanes of the vertices with this reference handle.
 template <typename Scalar, int bytes>
 struct PartReferences
 {
   static constexpr int lanes = part_lanes<Scalar, bytes>;
-  // One mask per reference handle: in lanes whose vertex uses the handle, all bits are set.
+  // One mask per reference handle. All bits are set in the lanes of vertices with this handle, no
+  // bits in other lanes.
   Bits<Scalar, bytes> lane_mask[lanes];
   std::int32_t handles[lanes];
   int count = 0;
@@ -120,7 +121,7 @@ BINDPOSE_ALWAYS_INLINE Pack shuffle(
 }
 
 /// Lane indices for shuffle() that select one coordinate of all points of a part. The three input
-/// packs contain x y z per point.
+/// packs contain the coordinates in the order x y z x y z ….
 template <int lanes, int coordinate>
 struct LanesOfRow
 {
@@ -131,9 +132,10 @@ private:
   static constexpr bool is_in_first(int i) { return 3 * i + coordinate < 2 * lanes; }
 };
 
-/// Lane indices for the inverse of LanesOfRow. The three input packs contain the x, y and z
-/// coordinates of a part's points. The three output packs contain x y z per point. With these
-/// indices, shuffle() computes output pack number `third` (0, 1 or 2).
+/// Lane indices for the inverse of LanesOfRow. The first input pack contains the x coordinates of a
+/// part's points, the second the y coordinates, and the third the z coordinates. The three output
+/// packs contain the coordinates in the order x y z x y z …. With these indices, shuffle() computes
+/// output pack number `third` (0, 1 or 2).
 template <int lanes, int third>
 struct LanesOfPoints
 {
@@ -145,7 +147,7 @@ private:
   static constexpr int coordinate(int i) { return (third * lanes + i) % 3; }
 };
 
-/// Transpose the points of a part: from x y z per point to one row per coordinate.
+/// Transpose the points of a part: from the order x y z x y z … to one row per coordinate.
 template <int bytes, typename Scalar>
 BINDPOSE_ALWAYS_INLINE void deinterleave(const Scalar* line, Scalar* points)
 {
@@ -158,7 +160,7 @@ BINDPOSE_ALWAYS_INLINE void deinterleave(const Scalar* line, Scalar* points)
   pack_at<bytes>(points + 2 * tile_lanes<Scalar>) = shuffle<LanesOfRow<lanes, 2>>(a, b, c, all);
 }
 
-/// Transpose back: from one row per coordinate to x y z per point.
+/// Transpose the points of a part: from one row per coordinate to the order x y z x y z ….
 template <int bytes, typename Scalar>
 BINDPOSE_ALWAYS_INLINE void interleave(const Scalar* points, Scalar* line)
 {

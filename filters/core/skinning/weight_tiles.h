@@ -24,7 +24,8 @@ struct WeightTiles
   std::vector<std::int32_t> columns; ///< handle of each column, ascending within a tile
   std::vector<Scalar> weights; ///< `lanes` weights for each column
 
-  /// Return the tile of a vertex. The next function returns its lane in the tile.
+  /// Return the tile of a vertex (first function), or the lane of the vertex in its tile (second
+  /// function).
   static Index tile_of(Index vertex) { return vertex / lanes; }
   static Index lane_of(Index vertex) { return vertex % lanes; }
   Index weight_of(Index k, Index lane) const { return k * lanes + lane; }

@@ -1,8 +1,8 @@
 #ifndef bindpose_solid_angle_segment_crossing_h
 #define bindpose_solid_angle_segment_crossing_h
 
-// Crossing test between a segment and a triangle in double precision, which reports uncertain
-// cases.
+// Crossing test between a segment and a triangle in double precision. Cases that are uncertain
+// because of round-off are reported as undecided.
 
 #include "geometry/mesh.h"
 

@@ -63,9 +63,10 @@ inline void SolidAngleSum::add(const Vec3& a0, const Vec3& b0, const Vec3& c0, i
   const double lengths = la * lb * lc;
   const double real = lengths + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
   const double imaginary = a.dot(b.cross(c));
-  // If this condition is true, the half angle is below 45 degrees, so four half angles sum to less
-  // than a half turn. The condition also excludes triangles that touch the point: real / lengths is
-  // at most 0.63 for a touching triangle whose vertices are more than 4 tolerances away.
+  // real > lengths implies that half the solid angle is below 45 degrees. The sum of four such
+  // angles is then below a half turn. Together with the minimum distance of the vertices, the
+  // condition also excludes triangles that touch the point: real / lengths is at most 0.63 for a
+  // touching triangle whose vertices are more than 4 tolerances away.
   const double near_distance = 4.0 * this->tolerance_;
   if (real > lengths && la > near_distance && lb > near_distance && lc > near_distance &&
     (multiplicity == 1 || multiplicity == -1))

@@ -44,10 +44,10 @@ void regular_harmonics(int order, const HarmonicLanes (&position)[3], Harmonics&
 /// Compute the irregular (decaying) harmonics; `position` must not be 0.
 void irregular_harmonics(int order, const HarmonicLanes (&position)[3], Harmonics& out);
 
-/// Add the derivatives of the regular harmonics along the vector `normal` to `out`. `value` must
-/// contain the regular harmonics. If it contains integrals of the regular harmonics instead, the
-/// integrals of the derivatives are added. The coefficients out(n, m) of degrees n = 1 … order are
-/// computed from value(n - 1, .).
+/// Add the derivatives of the regular harmonics along the vector `normal` to `out`. `value`
+/// contains the regular harmonics or their integrals. If `value` contains integrals, the integrals
+/// of the derivatives are added. The coefficients out(n, m) of degrees n = 1 … order are computed
+/// from value(n - 1, .).
 void regular_derivative(
   int order, const Harmonics& value, const HarmonicLanes (&normal)[3], Harmonics& out);
 

@@ -135,8 +135,8 @@ BINDPOSE_ALWAYS_INLINE Real angle_of(Real re, Real im)
 }
 
 /// Add blocks far from the point. Seen from the point, a sphere of the block's size covers less
-/// than an eighth of all directions. Half the solid angle of a triangle is below 41 degrees, so the
-/// sum for four triangles is below half a turn. No triangle touches the point.
+/// than an eighth of all directions. Therefore half the solid angle of a triangle is below 41
+/// degrees, and the sum of four such angles is below half a turn. No triangle touches the point.
 template <typename Real>
 BINDPOSE_ALWAYS_INLINE void add_distant_blocks(const TriangleBlock<Real>* blocks,
   const RelativeBlock<Real>* relative, const int* order, int count, Real (&sums)[triangle_lanes])

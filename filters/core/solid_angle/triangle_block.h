@@ -12,8 +12,8 @@ namespace bindpose
 
 constexpr int triangle_lanes = 8;
 
-/// Eight triangles, one per lane. Corners are relative to a center, in units of about the size of
-/// the triangles.
+/// Eight triangles, one per lane. Corner coordinates are relative to `center` and multiplied by
+/// `inverse_size`, so that all corners are within the unit sphere.
 template <typename Real>
 struct TriangleBlock
 {

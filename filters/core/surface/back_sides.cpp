@@ -37,7 +37,7 @@ CancelingTriangles find_canceling(TrianglesView triangles)
   {
     std::array<Index, 3> key; ///< corners a, b, c, ascending
     Index triangle;
-    bool forward; ///< whether the triangle has the orientation of `key`
+    bool forward; ///< whether the orientation of the triangle is a, b, c (not a, c, b)
   };
   std::vector<Item> items;
   for (Index t = 0; t < triangles.rows(); ++t)

@@ -208,7 +208,7 @@ private:
     return link.triangles[1] >= 0 ? limit : infinite;
   }
 
-  static constexpr double maximum_steps = 1000.0; ///< number of sample intervals per edge
+  static constexpr double maximum_steps = 1000.0; ///< maximum number of sample intervals per edge
 
   PointsView points_;
   TrianglesView triangles_;

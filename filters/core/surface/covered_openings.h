@@ -28,7 +28,7 @@ struct CoveredOpenings
 ///
 /// The result is the same for any number of threads. Cost: O(n log n) for n triangles, and about
 /// 5 us per sample.
-/// @param triangles welded: triangles with a common vertex have the id of this vertex in common.
+/// @param triangles triangles of a welded surface: equal points have the same vertex id.
 /// @param parts #F: part of each triangle. Triangles with a common vertex are in the same part.
 /// @return invalid_input if the touch distance is negative or the spacing is not positive.
 Status find_covered_openings(ExecutionContext& context, PointsView points, TrianglesView triangles,

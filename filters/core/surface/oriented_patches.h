@@ -11,7 +11,7 @@ namespace bindpose
 /// A maximal set of triangles that are connected by edges with exactly two triangles.
 struct OrientedPatch
 {
-  /// Triangle ids; each triangle except the first has an earlier neighbor.
+  /// Triangle ids. Each triangle except the first is a neighbor of a triangle earlier in the list.
   std::vector<Index> triangles;
   /// One flag per triangle: 1 if its orientation is opposite to that of the first triangle.
   /// Orientations are compared by going from neighbor to neighbor.

@@ -214,8 +214,8 @@ private:
   bool link_nearest(std::vector<PartLink>& links)
   {
     const auto parts = static_cast<Index>(this->constrained_.size());
-    // For each group, 1 if it contains a held (constrained) part; indexed by the group's smallest
-    // part.
+    // For each group, 1 if it contains a held (constrained) part. The index of a group is the
+    // smallest id of its parts.
     std::vector<char> constrained = this->constrained_;
     for (bool changed = true; changed;)
     {

@@ -147,10 +147,10 @@ std::vector<Index> patches_of(const std::vector<TriangleSide>& sides, Index tria
   return patch;
 }
 
-/// Compute the shell of each triangle, #F. The first shells are the components; they contain the
-/// triangles that are not in a closed patch. The closed patches follow, so that solids that touch
-/// in edges or vertices have one shell each.
-/// @param shell_of set to the index of each triangle's shell.
+/// Divide the triangles into shells. Each closed patch is a shell of its own, so that solids that
+/// touch in edges or vertices are separate shells. The other triangles of each component form one
+/// shell, which may be empty. The shells of the components come first in the result.
+/// @param shell_of set to the index of each triangle's shell, #F.
 /// @return the shells.
 std::vector<Shell> find_shells(
   const Triangles& triangles, const Components& components, std::vector<Index>& shell_of)

@@ -57,7 +57,7 @@ struct RepairOptions
   bool count_self_intersections = true;
 };
 
-/// A surface without equal vertices, unused vertices and triangles of area zero. Duplicate and
+/// A surface without equal vertices, unused vertices or triangles of area zero. Duplicate and
 /// crossing triangles are kept, because they contribute to the winding number.
 struct RepairedSurface
 {

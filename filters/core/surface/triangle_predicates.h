@@ -14,8 +14,8 @@ int orientation_3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 bool collinear(const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// Report whether two triangles of a mesh intersect outside of the vertices and edges that they
-/// share by id: they cross, touch, or overlap in one plane. The test is exact. Return false for a
-/// triangle and itself, for duplicates, and if one of them has area zero.
+/// share by id: they cross, touch, or overlap in one plane. The test is exact. Return false if f
+/// equals g, if both triangles have the same three vertices, or if a triangle has area zero.
 bool triangles_cross(PointsView points, TrianglesView triangles, Index f, Index g);
 
 /// Report whether the segment pq and the triangle abc have a common point. The test is exact.

@@ -107,7 +107,7 @@ template <typename AtTriangle>
 void TriangleTree::search(
   const Vec3& p, const double& squared_limit, const AtTriangle& at_triangle) const
 {
-  // Each child contains half of the triangles of its parent, so the tree is never deeper than this.
+  // Each child contains half of the triangles of its parent, so the depth of the tree is below 128.
   std::array<std::pair<Index, double>, 128> stack; // nodes and their squared distances
   std::size_t top = 0;
   if (!this->nodes_.empty())

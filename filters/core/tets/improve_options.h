@@ -11,10 +11,10 @@ namespace bindpose
 /// Options of improve_tets().
 struct ImproveOptions
 {
-  /// Tets whose smallest dihedral angle is below this are improved, degrees.
+  /// Limit in degrees: tets whose smallest dihedral angle is below this limit are improved.
   double angle = 12.0;
-  /// A held (constrained) vertex may move if a tet at the vertex remains below this angle, degrees.
-  /// 0: held vertices never move.
+  /// Limit in degrees: a held (constrained) vertex may move if the smallest dihedral angle of a tet
+  /// at the vertex remains below this limit. 0: held vertices never move.
   double release_angle = 8.5;
   Index passes = 20; ///< maximum number of passes over the tets that are too flat
   /// Whether boundary triangles stay unchanged, except as `coplanar` allows.
@@ -23,15 +23,15 @@ struct ImproveOptions
   /// this length. 0: no boundary edge is swapped.
   double coplanar = 0.0;
   /// Whether vertices may be inserted near tets whose smallest angle is below insert_angle, if no
-  /// other step improves them.
+  /// other step improves these tets.
   bool insert = false;
   double insert_angle = 8.0; ///< degrees
   /// A step may reduce the smallest angle of the tets that it touches to this fraction (0 … 1) of
   /// its old value, if the step improves enough other tets. 1: no step may reduce the angle.
   double slack = 1.0;
-  /// Limit of the work: approximate maximum number of computed tet qualities, divided by the number
-  /// of tets. One tet quality takes 40 ns. In large meshes a second limit is lower: 25 million tet
-  /// qualities plus 400 per tet.
+  /// Limit of the work: approximate maximum number of computed tet qualities per tet of the mesh.
+  /// One tet quality takes 40 ns. For large meshes, a second, lower limit applies: in total, 25
+  /// million tet qualities plus 400 per tet.
   double effort = 2000.0;
 };
 

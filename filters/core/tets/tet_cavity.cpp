@@ -108,8 +108,9 @@ CavitySearch::Facet CavitySearch::facet_inwards(Index t, int k) const
   return { tet[f[0]], tet[f[2]], tet[f[1]] };
 }
 
-/// Remove each tet of the cavity that has a facet with which p would form too flat a tet. After
-/// each removal, check the neighbors of the removed tet again. @return false if `start` is removed.
+/// Remove tets of the cavity until p and every facet that bounds the cavity form a tet of at least
+/// `minimum_quality`. If a facet does not satisfy this condition, remove its tet and check the
+/// neighbors of the removed tet again. @return false if `start` would have to be removed.
 bool CavitySearch::shrink(const Vec3& p, Index start, double minimum_quality)
 {
   for (std::size_t next = 0; next < this->queue_.size(); ++next)

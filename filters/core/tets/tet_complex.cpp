@@ -14,7 +14,8 @@ namespace
 {
 // If the quality is below this (0.001 degrees), the sign of a volume in doubles is not reliable.
 constexpr double unreliable_quality = 3e-10;
-// The same for the squared volume, divided by the squared lengths of the edges at one vertex.
+// The sign of a volume is also unreliable if q is at most this. Here q is (6 volume)^2, divided by
+// the product of the squared lengths of the three edges at one vertex.
 constexpr double unreliable_square = 1e-26;
 // The largest possible quality is 8/9; larger values are rounding errors.
 constexpr double largest_quality = 0.9;
@@ -116,7 +117,8 @@ double TetComplex::quality(const Vec3& a, const Vec3& b, const Vec3& c, const Ve
   add(nb, nc, square * ad.squaredNorm(), lb * lc);
   add(nb, nd, square * ac.squaredNorm(), lb * ld);
   add(nc, nd, square * ab.squaredNorm(), lc * ld);
-  // Both tests are those of check_tets().
+  // If the sign of the volume is unreliable, the exact and the double-precision volume are tested,
+  // as in check_tets().
   const bool is_reliable = least >= unreliable_quality &&
     square > unreliable_square * ab.squaredNorm() * ac.squaredNorm() * ad.squaredNorm();
   if (!is_reliable && (orientation_3d(a, b, c, d) <= 0 || !(tet_volume(a, b, c, d) > 0.0)))

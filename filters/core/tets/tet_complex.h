@@ -82,7 +82,7 @@ public:
   {
     return tet[0] == v || tet[1] == v || tet[2] == v || tet[3] == v;
   }
-  /// Return the index of the corner of a tet that is none of its vertices a, b and c.
+  /// Return the index of the fourth corner of a tet with the vertices a, b and c.
   static int opposite_corner(const Tet& tet, Index a, Index b, Index c)
   {
     const auto found =

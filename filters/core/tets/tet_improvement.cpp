@@ -132,7 +132,7 @@ private:
     std::vector<Index> batch; // tets of the current batch
     std::vector<Index> deferred; // tets of the following batches
     const auto is_due = [&](Index t)
-    // A tet that an earlier step has improved enough is skipped.
+    // Skip tets that an earlier step has improved enough, and tets without a changed vertex.
     { return this->tets_.quality(t) < required_quality && this->changed(t); };
     for (std::size_t next = 0; (next < flat.size() || !deferred.empty()) && !this->exhausted();)
     {
@@ -286,7 +286,7 @@ private:
     }
   }
 
-  /// Return the change counter at the last change of a vertex of the tet.
+  /// Return the value of the mesh's change counter at the last change of any vertex of the tet.
   std::uint64_t last_change(Index t) const
   {
     std::uint64_t last = 0;
@@ -297,8 +297,7 @@ private:
     return last;
   }
 
-  /// Report whether a vertex of the tet has changed since the last search for a step that improves
-  /// the tet.
+  /// Report whether a vertex of the tet has changed since a step for this tet was last searched.
   bool changed(Index t) const
   {
     return t >= static_cast<Index>(this->last_search_.size()) ||
@@ -355,7 +354,7 @@ private:
   double maximum_evaluations_ = 0.0;
   Index evaluations_ = 0;
   std::vector<char> moved_;
-  /// Per tet: the change counter of the mesh at the last search for a step that improves the tet.
+  /// Per tet: value of the mesh's change counter when a step for this tet was last searched.
   std::vector<std::uint64_t> last_search_;
   std::vector<Index> reserving_batch_; ///< per vertex: the last batch that reserved it
   Index batch_ = 0;

@@ -283,7 +283,7 @@ public:
   bool insert(const TetMesh& mesh, const Points& positions, std::vector<Index>& vertices)
   {
     const std::vector<std::int32_t> spatial_order = spatial_sort(as_vectors(positions));
-    // fraction of the total time for locating the positions
+    // fraction of the total time that is needed for locating the positions
     constexpr double locating_fraction = 0.2;
     {
       const ProgressRange range(this->context_, 0.0, locating_fraction);
@@ -415,8 +415,9 @@ private:
 
   /// Find the tets or the edge that a new vertex at p would replace. i: index of the position p.
   /// The first attempt is a cavity whose new tets have dihedral angles of at least 1 degree. The
-  /// second attempt splits an edge that contains p up to rounding (points of a bone are collinear).
-  /// The last attempt is a cavity with any positive new tets.
+  /// second attempt splits an edge that contains p up to rounding. Such edges are common along
+  /// bones, because the points of a bone are collinear. The last attempt is a cavity whose new tets
+  /// have positive volumes.
   void find_sites(Index i, const Vec3& p, CavitySearch& search, Site& site) const
   {
     site.kind = Site::Kind::none;

@@ -270,8 +270,8 @@ Status check_tets(
       return failure("tet " + std::to_string(t) + " must have a positive volume");
     }
   }
-  // Report whether the outward orientation of the facet is the cyclic order of ascending vertex
-  // ids.
+  // Report whether the vertex ids of the facet, in outward orientation, are a cyclic permutation of
+  // the ids in ascending order.
   const auto forward = [&](const TetFacet& facet)
   {
     const auto& corners = facet_corners[facet.side];

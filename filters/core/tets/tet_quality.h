@@ -15,7 +15,8 @@ namespace bindpose
 
 /// Volume of a regular tet with edges of length 1.
 constexpr double regular_tet_volume = 0.11785113019775793;
-/// A tet is counted as a sliver if its smallest dihedral angle is below this, degrees.
+/// Limit in degrees: a tet is counted as a sliver if its smallest dihedral angle is below this
+/// limit.
 constexpr double sliver_angle = 5.0;
 
 /// Return the smallest of the six dihedral angles of a tet, degrees; 0 for a tet without volume.
@@ -61,8 +62,8 @@ Index count_forced_tets(ExecutionContext& context, PointsView points, TetsView t
 /// side. A valid mesh has a closed boundary. With may_branch a facet may have any number of tets.
 /// Ids must be in range.
 Status check_tets(PointsView points, TetsView tets, bool may_branch = false);
-/// The same checks as above, but with precomputed tet_facets() of the tets. Computing the facets
-/// takes most of the time of the checks.
+/// Check tets like the other check_tets() function, but use precomputed facets, the result of
+/// tet_facets(). Computing the facets takes most of the time of the checks.
 Status check_tets(
   PointsView points, TetsView tets, const std::vector<TetFacet>& facets, bool may_branch = false);
 

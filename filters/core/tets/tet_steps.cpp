@@ -386,7 +386,8 @@ bool TetStepSearch::move(Index v, TetStep& step)
   const double minimum_quality = this->minimum_quality_after(old_cost);
   double value = old_cost.sum;
   Vec3 at = start;
-  // Visit the worst tets first, because they reject most of the new positions.
+  // Test the worst tets first. Most of the rejected positions fail at these tets, so the test of a
+  // position ends early.
   std::stable_sort(this->star_.begin(), this->star_.end(),
     [&](Index s, Index t) { return this->tets_.quality(s) < this->tets_.quality(t); });
   constexpr double first_step = 0.3;
@@ -556,7 +557,7 @@ bool TetStepSearch::insert(Index t, Vec3 p, TetStep& step)
 }
 
 /// Sort the facets of the cavity by the qualities of the tets that connect them to p, worst first.
-/// The worst tets reject most of the new positions.
+/// Most of the rejected positions fail at the worst tets, so the test of a position ends early.
 void TetStepSearch::sort_facets(TetCavity& cavity, const Vec3& p)
 {
   std::vector<std::pair<double, Facet>>& ranked = this->ranked_facets_;

@@ -326,7 +326,7 @@ private:
       {
         constant[part] = std::isinf(constant[part]) || constant[part] == given[u]
           ? given[u]
-          : std::nan(""); // given values of the component differ: it is not constant
+          : std::nan(""); // given values differ, so the column is not constant in this component
       }
     }
     for (Index u = 0; u < this->group_.count; ++u)

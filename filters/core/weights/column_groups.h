@@ -46,8 +46,8 @@ using Exclusions = std::vector<char>;
 /// naming handles and vertex, if terms contradict handles or each other.
 /// @param coupled whether the columns will be solved together, with rows that sum to one. A column
 /// can be constant in a component if its given values there are equal and within all bounds. If
-/// `coupled` is false, each such column is constant. If true, columns are constant only in
-/// components where this is possible for every column.
+/// `coupled` is false, every column is made constant in each component where it can be constant. If
+/// true, columns are made constant only in the components where every column can be constant.
 Status make_column_groups(const WeightsProblem& problem, const Exclusions& excluded, bool coupled,
   std::vector<ColumnGroup>& groups);
 

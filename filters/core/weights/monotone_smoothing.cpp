@@ -11,9 +11,9 @@
 // SmoothingGuide::harmonic, the order is determined by a harmonic function instead. Its boundary
 // values are given at the listed extrema; the data at all other vertices have no effect.
 //
-// A result also satisfies the pairs of the order of its own values, where vertices with equal
-// values keep their earlier order. Solving again for that order can therefore only lower the
-// energy.
+// The vertices can be sorted again, by the values of a result. Vertices with equal values keep
+// their earlier order. The result also satisfies the ordered pairs of this new order. Solving again
+// with the new pairs can therefore only lower the energy.
 #include "weights/monotone_smoothing.h"
 
 #include "domain/scaled_mesh.h"

@@ -11,14 +11,15 @@ namespace bindpose
 /// fixed as in the final weights.
 ///
 /// The matrix of the energy is K M^-1 K, with the cotangent stiffness K and the lumped mass M. The
-/// block of free vertices in this matrix is P + R. P is the product of the blocks of free vertices
-/// in K, M^-1 and K. R is a low-rank matrix that depends on the fixed vertices. A system in P needs
-/// only a factor of K. The effect of R is computed by the Woodbury formula.
+/// block of free vertices in this matrix is A + R. A is the product of the blocks of free vertices
+/// in K, M^-1 and K. R is a low-rank matrix that depends on the fixed vertices. To solve a system
+/// with the matrix A, only a factor of the block of K is needed. The effect of R is computed by the
+/// Woodbury formula.
 ///
 /// Cost: one factorization of K, and two solves per handle vertex that has a free neighbor. In
 /// volumes, factoring K takes only a fraction of the time of factoring K M^-1 K. If many handle
-/// vertices have a free neighbor, conjugate gradients with the preconditioner P are used instead.
-/// They end when no weight changes by 1e-3 or more in an iteration, or after 60 iterations.
+/// vertices have a free neighbor, conjugate gradients with the preconditioner A are used instead.
+/// The iterations end when no weight changes by 1e-3 or more, or after 60 iterations.
 ///
 /// The certificate bounds the difference between the energy of the clamped columns and the energy
 /// of bounded biharmonic weights. The tolerance of the options is ignored.

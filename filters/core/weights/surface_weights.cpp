@@ -27,9 +27,9 @@ namespace bindpose
 
 namespace
 {
-/// The weights of two lattices are trusted if their rms difference is at most this. Measured on
-/// figures and furniture: the weights of the finer lattice are then within 0.012 rms of the weights
-/// of much finer lattices.
+/// The finer of two lattices has converged if the rms difference between the weights of the two
+/// lattices is at most this. In measurements on figures and furniture, the weights of the finer
+/// lattice were then within 0.012 rms of the weights of much finer lattices.
 constexpr double maximum_rms = 0.016;
 /// Approximate number of tets of the first lattice. The second lattice has 3/2 times the resolution
 /// of the first lattice and about three times as many tets.
@@ -144,10 +144,10 @@ private:
   std::unique_ptr<PreparedSurface> prepared_;
   /// The locator of the surface, used for all lattices; null until it is needed.
   std::unique_ptr<SimplexLocator> surface_;
-  /// Links between parts of the surface, from two sources. The first links connect a part with an
-  /// opening to the parts that cover the opening. The other links connect parts without a handle to
-  /// other parts. They are found for each lattice (find_loose_parts). All links are kept for later
-  /// lattices.
+  /// Links between parts of the surface. Links of the first kind connect a part with an opening to
+  /// the parts that cover the opening; these links are found once. Links of the second kind connect
+  /// parts without a handle to other parts; these links are found for each lattice
+  /// (find_loose_parts). All links are kept for later lattices.
   std::vector<PartLink> links_;
   /// Number of openings that other parts cover; empty until `links_` contains the links at these
   /// openings.
@@ -497,8 +497,8 @@ Status Solver::embed_with_links(EmbeddingOptions options, Lattice& lattice)
     return prepared;
   }
   // After links are added, a new lattice is made and checked again, because it may still have parts
-  // without a handle. Real models took at most three rounds. Parts without a handle that remain
-  // after the last round copy the weights of the nearest handle.
+  // without a handle. At most three rounds were needed for real models. Parts that still have no
+  // handle after the last round get the weights of the nearest handle.
   constexpr int most_rounds = 4;
   const ProgressRange range(this->context_, 0.3, 1.0);
   Status status = this->link_openings();
@@ -901,8 +901,9 @@ const char* to_string(WeightsDomain domain)
 
 namespace
 {
-/// Compute the weights in the working frame of the surface. The problem of the result stays in the
-/// frame; the tets of the result are converted from the frame.
+/// Compute the weights in the working frame of the surface. Lengths in the report and the meshes
+/// `tets` and `plane_cage` of the result are converted back from the frame. The coordinates in
+/// `result.problem` remain those of the frame.
 Status surface_weights_in_frame(ExecutionContext& context, const WorkingFrame& frame,
   PointsView points, TrianglesView triangles, const std::vector<Index>& region_ids,
   const Handles& handles, SurfaceWeightsOptions options, WeightsOptions weights_options,

@@ -17,11 +17,11 @@ namespace bindpose
 Status harmonic_weights(ExecutionContext& context, const WeightsProblem& problem,
   const WeightsOptions& options, WeightsResult& result);
 /// Minimize int (Laplacian w)^2. The weights are smooth and nearly independent of the resolution of
-/// the mesh, but leave [0, 1].
+/// the mesh, but some of them are outside of [0, 1].
 Status biharmonic_weights(ExecutionContext& context, const WeightsProblem& problem,
   const WeightsOptions& options, WeightsResult& result);
-/// Minimize int |grad Laplacian w|^2. The weights are smoother than biharmonic weights, but leave
-/// [0, 1] by larger amounts.
+/// Minimize int |grad Laplacian w|^2. The weights are smoother than biharmonic weights, but the
+/// largest distance of a weight from [0, 1] is larger.
 Status triharmonic_weights(ExecutionContext& context, const WeightsProblem& problem,
   const WeightsOptions& options, WeightsResult& result);
 /// Minimize |K w|^2 without masses (Botsch and Kobbelt 2004), for comparison. The weights depend on

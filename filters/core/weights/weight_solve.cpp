@@ -152,7 +152,7 @@ public:
     return {};
   }
 
-  /// Return the estimated peak memory of the process in bytes, over all groups.
+  /// Return the estimated peak memory of the process in bytes: the largest estimate of all groups.
   double memory_estimate() const
   {
     double most = 0.0;

@@ -250,7 +250,7 @@ bool WeightTerms::any() const
 
 double rigidity_unit(int order)
 {
-  constexpr double unit = 1e4; // (diagonal / 100)^-2 for diagonal 1
+  constexpr double unit = 1e4; // (diagonal / 100)^-2 for a mesh of diagonal 1
   return std::pow(unit, order - 1);
 }
 

@@ -9,10 +9,10 @@ namespace bindpose
 {
 
 /// Optional terms of bounded and monotone weights: painted rigidity, rigid sets, bounds, prescribed
-/// weights and symmetry. An empty member is off. Vertices are those of the original mesh. Handle
-/// insertion adds vertices in elements. Values at such a vertex are interpolated from the corners
-/// of the element (NaN if a corner is NaN). The vertex gets a label if all these corners have the
-/// same label.
+/// weights and symmetry. If a member is empty, its term is not used. Vertices are those of the
+/// original mesh. Handle insertion adds vertices in elements. Values at such a vertex are
+/// interpolated from the corners of the element (NaN if a corner is NaN). The vertex gets a label
+/// if all these corners have the same label.
 struct WeightTerms
 {
   /// Painted rigidity, #V. The values must be from 0 to 1e12. The term 1/2 int rho |grad w|^2 is
@@ -44,7 +44,8 @@ struct WeightTerms
   Vec3 mirror_origin = Vec3::Zero();
 
   bool has_bounds() const;
-  /// Return the bounds of a handle's weight: at all vertices (first function), or at one vertex.
+  /// Return the bounds of a handle's weight: the bounds for all vertices (first function), or the
+  /// bounds at one vertex (second function).
   std::pair<double, double> bounds_of(Index handle) const;
   std::pair<double, double> bounds_of(Index handle, Index vertex) const;
   bool has_mirror() const { return !this->mirror.empty() || !this->mirror_normal.isZero(); }

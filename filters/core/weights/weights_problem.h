@@ -52,8 +52,8 @@ struct WeightsOptions
 /// of all weight methods. The same problem can be solved any number of times.
 struct WeightsProblem
 {
-  /// The frame of the coordinates in `handles` and `mesh`; the identity unless the input is
-  /// extreme.
+  /// The frame of the coordinates in `handles` and `mesh`. The frame is the identity unless the
+  /// input is extremely large or small or far from the origin.
   WorkingFrame frame;
   Handles handles;
   HandleInsertion mesh;
@@ -94,8 +94,8 @@ Status make_weights_problem(ExecutionContext& context, const Domain& domain,
   const std::vector<Index>& region_ids, const Handles& handles, const WeightsOptions& options,
   WeightsProblem& problem);
 
-/// Make a problem like make_weights_problem(), in the coordinates of the domain even if they are
-/// extreme. For callers that have converted the domain to a working frame.
+/// Make a problem like make_weights_problem(), but never convert the domain to a working frame.
+/// This function is for callers that have already converted the domain.
 Status make_weights_problem_in_place(ExecutionContext& context, const Domain& domain,
   const std::vector<Index>& region_ids, const Handles& handles, const WeightsOptions& options,
   WeightsProblem& problem);

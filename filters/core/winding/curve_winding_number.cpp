@@ -20,9 +20,9 @@
 // the piece. The reason is that the piece and the line together do not wind around the point. The
 // loops are also sorted into a tree of boxes. A loop has the winding number 0 outside its box.
 //
-// If the point touches a segment, the angles of the other segments are summed instead, in the same
-// tree. If the point is outside the box of a piece, the angle of the piece is the angle of the
-// straight line between its ends.
+// If the point touches a segment, the same tree is used to sum the angles of all other segments. If
+// the point is outside the box of a piece, the angle of the piece is the angle of the straight line
+// between the ends of the piece.
 #include "winding/curve_winding_number.h"
 
 #include "base/constants.h"
@@ -320,8 +320,8 @@ struct Node
 {
   Vec2 lower, upper; ///< box with a margin; contains every point that touches one of the segments
   double first_y, last_y; ///< y coordinates of the ends of a piece; equal for loops
-  /// The piece or loop consists of the path points `first` … `last`. A node with several loops is
-  /// not such a range; both indices are 0.
+  /// The piece or loop consists of the path points `first` … `last`. Both indices are 0 if the node
+  /// contains several loops.
   Id first, last;
   Id skip; ///< index of the node after this node's descendants
   bool leaf;
@@ -541,7 +541,7 @@ Status CurveWindingNumber::build(
   if (done)
   {
     std::vector<Degree> degrees(welded.points.size());
-    // Convert the segments to triangles without area for connected_components().
+    // connected_components() expects triangles, so each segment becomes a triangle without area.
     Triangles flat(static_cast<Index>(welded.segments.size()), 3);
     for (std::size_t e = 0; e < welded.segments.size(); ++e)
     {
@@ -699,8 +699,8 @@ double CurveWindingNumber::Impl::evaluate_on_curve(const Vec2& p) const
     ++n;
   }
   // Remove the angles of the chords from the sum. If p is inside the box of a chord's leaf, the
-  // loop above has skipped the chord. Otherwise the sum contains the angle of the whole leaf, or of
-  // a larger piece, including the chord.
+  // code above has skipped the chord, so the sum does not contain it. Otherwise the sum contains
+  // the angle of the whole leaf, or of a larger piece, including the chord.
   for (const Chord& chord : this->chords)
   {
     if (outside(this->nodes[chord.leaf]))

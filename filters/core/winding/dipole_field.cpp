@@ -144,8 +144,8 @@ DipoleField::Leaf DipoleField::leaf_at(const Vec3& point) const
     this->cell_coordinate(point[1], 1), this->cell_coordinate(point[2], 2) });
 }
 
-/// Call `use` with the coefficients of a leaf's expansion, which are floats or doubles, and return
-/// its result.
+/// Call `use` with the coefficients of a leaf's expansion, and return the result of `use`. The
+/// coefficients are floats or doubles.
 template <typename Use>
 auto DipoleField::with_coefficients(Id leaf, const Use& use) const
 {

@@ -15,11 +15,11 @@ namespace bindpose
 /// expansions and error estimates after Dehnen, A fast multipole method for stellar dynamics,
 /// 2014).
 ///
-/// Space is divided into fixed cells. A cell stores one polynomial for the triangles far from it
+/// The build divides space into cells. A cell stores one polynomial for the triangles far from it
 /// and a list of the triangles near it. The solid angles of the near triangles are summed. The
-/// value at a point therefore does not depend on the other points. The cost of a value is a descent
-/// in the tree, a polynomial, and 1-5 ns per near triangle. Outside the cells, a value is the sum
-/// of a few multipoles.
+/// cells are fixed after the build, so the value at a point does not depend on which other points
+/// are evaluated. A value costs a descent in the tree, a polynomial, and 1-5 ns per near triangle.
+/// Outside the cells, a value is the sum of a few multipoles.
 ///
 /// Triangles that touch a point contribute 0 (the principal value).
 class DipoleField
@@ -111,8 +111,8 @@ private:
   struct Leaf
   {
     Id id;
-    /// Number of bits. Shift the CellCoordinates of any cell in the leaf right by this number to
-    /// get the coordinates of the leaf on its level of the octree.
+    /// Number of bits. If the CellCoordinates of any cell in the leaf are shifted right by this
+    /// number, they become the coordinates of the leaf on its level of the octree.
     int shift;
     double inverse; ///< 2 divided by the edge length of the leaf
     Vec3 center;
@@ -154,8 +154,8 @@ private:
   std::vector<float> float_locals_;
   std::vector<double> double_locals_;
 
-  // Octree below a lattice of top cells. The entry of a cell is the index of the first child of the
-  // cell. The entry of a leaf is ~(index of the leaf).
+  // Octree below a lattice of top cells. `cells_` has one entry per cell. For a leaf the entry is
+  // ~(index of the leaf), for any other cell it is the index of the first child of the cell.
   Vec3 lower_ = Vec3::Zero();
   double size_ = 0.0;
   int top_level_ = 0;

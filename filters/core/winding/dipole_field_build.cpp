@@ -51,13 +51,14 @@ constexpr Tuning tunings[] = { { 1e-2, 4, 0.8 }, { 2e-3, 6, 0.8 }, { 1e-3, 7, 0.
 /// memory.
 constexpr Index small_field_blocks = 2048;
 constexpr double small_field_factor = 0.75;
-/// First threshold for the error estimate of an interaction, in units of the tolerance. The
-/// estimates are upper bounds, and the errors of many interactions rarely add up. If the errors do
-/// add up, the comparison on the sample points detects this case.
+/// First threshold for the error estimate of an interaction between a node and a cell, in units of
+/// the tolerance. It may exceed 1, because the estimates are upper bounds and the errors of many
+/// interactions rarely add up. If the errors do add up, the comparison on the sample points detects
+/// this case, and the threshold is lowered.
 constexpr double first_threshold = 1.2;
-/// Threshold for points outside the cells, as a fraction of the threshold in the cells. It is lower
-/// because each point has few interactions. Also, the estimates are closer to the errors, because
-/// they are made for a single point instead of a whole cell.
+/// Threshold for points outside the cells, as a fraction of the threshold in the cells. The
+/// fraction is below 1 for two reasons. First, each point has few interactions. Second, an estimate
+/// for a single point is closer to the error than an estimate for a whole cell.
 constexpr double outer_threshold_factor = 0.2;
 /// Largest accepted error on the sample points, in units of the tolerance. The rest of the
 /// tolerance is a margin for all other points.
@@ -405,8 +406,9 @@ bool DipoleField::Builder::sort_triangles()
   return true;
 }
 
-// Make a node of the triangles order[first … first + count) and split it recursively. Each split
-// keeps the sum over both parts of (number of blocks x squared size) small. Return the node's id.
+// Make a node of the triangles order[first … first + count), split it recursively and return its
+// id. A part of a split costs its number of blocks times its squared size. Each split is chosen so
+// that the sum of the costs of both parts is small.
 std::int32_t DipoleField::Builder::split(Id first, Id count)
 {
   Box box, center_box;

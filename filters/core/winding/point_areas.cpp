@@ -1,8 +1,8 @@
 // Area of the Voronoi cell of each sample, clipped to a disc. A cell starts as the square around
 // the disc and is cut by the bisector of each neighbor. Then the area of the intersection of the
 // polygon and the disc is computed as a sum over the edges of the polygon. The part of an edge
-// inside the disc contributes its triangle with the center of the disc. A part outside the disc
-// contributes a circular sector.
+// inside the disc contributes the triangle that it forms with the center of the disc. A part
+// outside the disc contributes a circular sector.
 #include "winding/point_areas.h"
 
 #include "base/parallel.h"

@@ -198,7 +198,7 @@ BINDPOSE_SIMD_CLONES unsigned far_boxes(const Boxes& boxes, const double (&q)[3]
   return bits;
 }
 
-/// Add the contributions of the multipoles of the boxes in the bit mask `bits` to `sums`.
+/// Evaluate the multipoles of the boxes whose bit is set in `bits`, and add the values to `sums`.
 BINDPOSE_SIMD_CLONES void add_multipoles(int order, const HarmonicLanes* moments,
   const Harmonics& harmonics, unsigned bits, HarmonicLanes& sums)
 {
@@ -215,14 +215,16 @@ BINDPOSE_SIMD_CLONES void add_multipoles(int order, const HarmonicLanes* moments
   }
   for (int i = 0; i < harmonic_lanes; ++i)
   {
-    // The sum of a near box may be infinite, so it is excluded by a selection, not by a factor 0.
+    // The sum of a near box may be infinite, and 0 times infinity is NaN. Therefore near boxes are
+    // excluded by a condition, not by a factor 0.
     sums.lane[i] += bits >> i & 1u ? sum[i] : 0.0;
   }
 }
 
-/// Add the gradient of the multipoles of the boxes in the bit mask `bits` to `sums`. `harmonics`
-/// must contain the irregular harmonics T to degree order + 1, because the derivatives of T(n, m)
-/// are d/dz T(n, m) = -T(n+1, m) and (d/dx + i d/dy) T(n, m) = -T(n+1, m+1).
+/// Evaluate the gradients of the multipoles of the boxes whose bit is set in `bits`, and add the
+/// gradients to `sums`. `harmonics` must contain the irregular harmonics T up to degree order + 1,
+/// because the derivatives of T(n, m) are d/dz T(n, m) = -T(n+1, m) and
+/// (d/dx + i d/dy) T(n, m) = -T(n+1, m+1).
 BINDPOSE_SIMD_CLONES void add_multipole_gradients(int order, const HarmonicLanes* moments,
   const Harmonics& harmonics, unsigned bits, HarmonicLanes (&sums)[3])
 {
@@ -420,7 +422,7 @@ double PointCloudWindingNumber::Impl::visit(
 {
   HarmonicLanes bounds{};
   const double q[3] = { p[0], p[1], p[2] };
-  // Each level leaves at most seven groups on the stack; 2^29 points have ten levels.
+  // Each level leaves at most seven groups on the stack; a tree of 2^29 points has ten levels.
   Id stack[128];
   int stack_size = 0;
   stack[stack_size++] = 0;
@@ -467,7 +469,8 @@ void PointCloudWindingNumber::Impl::repeat_until_tolerance(const Try& attempt) c
       return;
     }
     // The error bound of a box decreases with the distance d at least as fast as 1 / d^(order + 2).
-    // The error bounds of the children of the box are smaller.
+    // The error bounds of the children of the box are smaller. Therefore the required distances are
+    // multiplied by (error_bound / tolerance)^(1 / (order + 2)), apart from the margin.
     constexpr double margin = 1.05;
     squared_stretch *= margin * std::pow(error_bound / this->tolerance, 2.0 / (this->order + 2));
   }
@@ -689,8 +692,9 @@ Points PointCloudWindingNumber::Impl::sample(const PointTree& tree) const
 bool PointCloudWindingNumber::Impl::find_threshold(
   ExecutionContext& context, const Points& sample_points)
 {
-  // The error bound of each box is proportional to the threshold. The number of boxes decreases
-  // slightly if the threshold increases.
+  // The error bound of each box is proportional to the threshold, and the number of boxes decreases
+  // only slightly if the threshold increases. Therefore each round multiplies the threshold by the
+  // intended sum of the error bounds divided by the largest sum.
   double threshold = this->tolerance / 32.0;
   constexpr int rounds = 4;
   for (int round = 0; round < rounds; ++round)

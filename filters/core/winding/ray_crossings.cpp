@@ -41,8 +41,8 @@ constexpr double point_cost = 120.0;
 constexpr double slab_face_cost = 50.0;
 constexpr double row_cost = 5.0;
 /// The grid of the projection plane has as many cells as there are triangles, but at least
-/// `minimum_cells_per_point` and at most `maximum_cells_per_point` cells per point. If there are
-/// more triangles than points, most triangles then overlap only cells without points.
+/// `minimum_cells_per_point` and at most `maximum_cells_per_point` cells per point. Therefore most
+/// triangles overlap only cells without points if there are more triangles than points.
 constexpr double minimum_cells_per_point = 0.5;
 constexpr double maximum_cells_per_point = 8.0;
 /// Points per slab of the grid in the projection plane; one thread processes a slab.

@@ -242,7 +242,8 @@ bool find_edges(
   ExecutionContext& context, const Triangles& triangles, Index vertices, WeldedSurface& welded)
 {
   std::vector<Index> begin;
-  // For each triangle side: the larger vertex id, and 1 if the side points to that vertex.
+  // One entry per triangle side, grouped by the smaller vertex id of the side. An entry packs the
+  // larger vertex id and a flag, which is 1 if the side points to the larger id.
   std::vector<std::uint64_t> sides;
   const auto visit = [&](const auto& emit)
   {

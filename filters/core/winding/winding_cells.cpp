@@ -68,6 +68,7 @@ BINDPOSE_SIMD_CLONES int WindingCells::count_crossings(const Block* begin, const
   const float length = std::abs(qx) + std::abs(qy) + std::abs(qz);
   // A point at the distance d from a triangle has a signed distance of at least -d from each plane
   // through the reference and an edge of the triangle (positive on the side of the triangle).
+  // Therefore the bound includes `touching`: faces that the point touches become undecided.
   const float edge_bound = rounding_error * length + 1.01f * Block::fixed_point_one * touching;
   const float side_bound = edge_bound + rounding_error * Block::fixed_point_one;
   std::int32_t counts[lanes] = {};

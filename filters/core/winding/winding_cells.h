@@ -47,10 +47,10 @@ public:
 private:
   using Id = std::int32_t;
   static constexpr int lanes = 8;
-  /// Planes of up to eight triangles relative to the reference of a leaf. The first three normals
-  /// belong to the planes through the reference and an edge. The fourth normal belongs to the plane
-  /// of the triangle; the next number is the distance of this plane. The layout is a structure of
-  /// arrays: each coordinate is stored for all triangles before the next coordinate.
+  /// Planes of up to eight triangles, relative to the reference of a leaf. Each triangle has 13
+  /// values: the normals of the three planes through the reference and an edge, the normal of the
+  /// triangle's own plane, and the distance of this plane from the reference. The layout is a
+  /// structure of arrays: each value is stored for all triangles before the next value.
   struct Block
   {
     static constexpr int values_per_plane = 13;

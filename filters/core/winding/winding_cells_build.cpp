@@ -94,8 +94,8 @@ SortedCorners sorted_corners(const Triangles& triangles, Index t)
   return corners;
 }
 
-/// Return the ids of the triangles, followed by the ids of the caps, in ascending order. If a
-/// triangle and a cap have the same corners and opposite orientations, both are omitted.
+/// Return the ids of the triangles and the caps in ascending order. The id of cap t is #triangles +
+/// t. If a triangle and a cap have the same corners and opposite orientations, both are omitted.
 std::vector<std::int32_t> remove_opposite_pairs(const Triangles& triangles, const Triangles& caps)
 {
   std::vector<SortedCorners> cap_corners;

@@ -291,8 +291,8 @@ Status WindingNumber::build(
       impl.method = WindingMethod::direct;
     }
   }
-  // The plain sum over the caps takes the least time if there are few caps. The cells of the
-  // DipoleField take the least time if the caps are small.
+  // If the DipoleField is a plain sum over the caps, the number of caps determines its cost, so
+  // the caps from boundary_caps() are kept. Otherwise small caps take the least time.
   if (done && impl.method == WindingMethod::fast &&
     !DipoleField::uses_direct_sum(options.expected_queries))
   {

@@ -131,8 +131,8 @@ bool WindingTree::build_node(ExecutionContext& context, Id id, std::vector<NetEd
     merge_edges(boundary);
   }
 
-  // Boundary edges at the apex of the fan need no triangle. Therefore the vertex that is `a` in the
-  // most boundary edges becomes the apex.
+  // Boundary edges at the apex of the fan need no triangle. Therefore the apex is a vertex with
+  // many boundary edges: the one that is the end `a` of the largest number of edges.
   Id apex = -1;
   std::size_t most = 0;
   for (std::size_t i = 0; i < boundary.size();)

@@ -12,13 +12,14 @@
 // and all other pieces are empty. For an empty piece, the same piece is requested upstream. That
 // piece is also empty and costs nothing.
 //
-// A filter can have a piece port, i.e. an input port that GetPiecePort() returns. It requests the
-// piece from this port and the whole input from all other ports. If an algorithm is upstream of the
-// piece port and of another port, this algorithm executes only once, for the last request. Which
-// request is last depends on what is already up to date, and can differ between processes. In this
-// case piece 0 is computed from the whole input, as in filters without a piece port.
-// follows_pieces() detects the case from the connections, which are the same on all processes. It
-// identifies an output by its information object, which connected inputs share.
+// A filter can have a piece port, i.e. an input port that GetPiecePort() returns. The filter
+// requests the piece from this port and the whole input from all other ports. An algorithm that is
+// upstream of both the piece port and another port executes only once, for the last of these
+// requests. Which request is last depends on what is already up to date, and can differ between
+// processes. If there is such an algorithm, piece 0 is therefore computed from the whole input, as
+// in filters without a piece port. follows_pieces() detects such algorithms from the connections,
+// which are the same on all processes. It identifies an output by its information object, which
+// connected inputs share.
 //
 // Blocks: if the first input is a composite, the executive requests all passes once for the whole
 // filter, and then, from REQUEST_DATA_OBJECT to REQUEST_DATA, once per block. In the latter passes

@@ -64,7 +64,8 @@ public:
     this->SetInputConnection(2, instances);
   }
 
-  /// Return the port of the instances, which do not depend on each other.
+  /// Return the port of the instances. Each process can pose its own piece of the instances,
+  /// because instances do not depend on each other.
   int GetPiecePort() override { return 2; }
 
   ///@{

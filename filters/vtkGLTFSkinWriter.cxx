@@ -287,7 +287,8 @@ int vtkGLTFSkinWriter::FillInputPortInformation(int port, vtkInformation* info)
   info->Set(INPUT_REQUIRED_DATA_TYPE(), port == 1 ? "vtkPolyData" : "vtkPointSet");
   info->Set(INPUT_IS_OPTIONAL(), port > 0);
   info->Set(INPUT_IS_REPEATABLE(), port == 2);
-  // If composites were not accepted, the executive would write all blocks to the same file.
+  // If composites were not accepted, the executive would call this writer once per block, each time
+  // with the same file name.
   AcceptBlocks(info);
   return 1;
 }

@@ -256,7 +256,8 @@ bool all_finite(vtkPoints* points)
 }
 
 /// Check that the points of all cells are finite, so that no result with NaN or infinity replaces a
-/// good file. Points that no cell uses may be those of an input.
+/// good file. Points that no cell uses are not checked, because the input may contain unused points
+/// that are not finite.
 Status check_points(vtkDataSet* data)
 {
   auto* point_set = vtkPointSet::SafeDownCast(data);
@@ -308,7 +309,8 @@ int vtkMeshFileWriter::Write()
 int vtkMeshFileWriter::FillInputPortInformation(int, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
-  // If composites were not accepted, the executive would write all blocks to the same file.
+  // If composites were not accepted, the executive would call this writer once per block, each time
+  // with the same file name.
   AcceptBlocks(info);
   return 1;
 }

@@ -43,7 +43,7 @@ struct vtkPoseHandles::Internals
   /// that the warnings of a source are issued only once.
   std::optional<std::string> warned_source;
 
-  FileStamp stamp; ///< of the file from which `text` was read
+  FileStamp stamp; ///< stamp of the file from which `text` was read
   std::string text; ///< content of the pose file, or PoseJSON
   std::string source; ///< start of messages about the text: "pose.json: ", or empty for PoseJSON
   int text_version = 0; ///< increases when `text` changes
@@ -91,8 +91,8 @@ bool vtkPoseHandles::HasExtension(const char* extensions) const
   return this->FileName && is_listed(file_extension(this->FileName), extensions);
 }
 
-/// Read the pose file or PoseJSON into the cache if it has changed: its text, the version of the
-/// text, and the source with which messages about the text begin ("FILE: ", or "" for PoseJSON).
+/// Update the cache if the pose file or PoseJSON has changed: the text, the version of the text,
+/// and the source with which messages about the text begin ("FILE: ", or "" for PoseJSON).
 Status vtkPoseHandles::ReadText()
 {
   Internals& cache = *this->Internal;

@@ -1,5 +1,5 @@
 // Exchanges the parts of a dataset between processes. Every process must send and receive the same
-// messages in the same order, or the processes would wait for each other forever. Therefore
+// messages in the same order; otherwise the processes would wait for each other forever. Therefore
 //
 // - all processes make the same decision whether to exchange data. It depends on a change upstream,
 //   the requested time and the result of the last exchange, which are the same on all processes. It

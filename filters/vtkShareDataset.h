@@ -61,8 +61,8 @@ public:
   vtkGetObjectMacro(Controller, vtkMultiProcessController);
   ///@}
 
-  /// Number of completed exchanges. With only one process nothing is exchanged. The number then
-  /// counts updates, but only those that follow a change upstream.
+  /// Number of completed exchanges. With only one process, nothing is exchanged; the number then
+  /// counts the updates that follow a change upstream.
   vtkGetMacro(NumberOfExchanges, int);
 
   /// Set the executive. The filter ignores an executive unless it has the class of the default

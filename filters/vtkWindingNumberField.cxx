@@ -387,8 +387,8 @@ int vtkWindingNumberField::RequestInformation(
   vtkInformation* info = output->GetInformationObject(0);
   if (vtkInformation* points = input[1]->GetInformationObject(0))
   {
-    // The executive has copied the structure of input 0 (the surface), but the output has the
-    // structure of the points on input 1.
+    // The output has the structure of the points on input 1. Copy this structure, because the
+    // executive has copied the structure of input 0 (the surface).
     for (vtkInformationKey* key : std::initializer_list<vtkInformationKey*>{ SDDP::WHOLE_EXTENT(),
            vtkDataObject::ORIGIN(), vtkDataObject::SPACING(), vtkDataObject::DIRECTION(),
            CAN_PRODUCE_SUB_EXTENT(), CAN_HANDLE_PIECE_REQUEST() })

@@ -24,8 +24,8 @@ Status invalid_offsets()
                                "the number of the cells' point ids");
 }
 
-/// Check the offsets of cells, and call `is_valid(cell, size)` for each cell. If it returns false,
-/// return `describe(cell, size)` as an error.
+/// Check the offsets of cells, and call `is_valid(cell, size)` for each cell. If `is_valid` returns
+/// false, return an error with the message `describe(cell, size)`.
 template <typename Value, typename IsValid, typename Describe>
 Status check_each(const Value* offsets, vtkIdType cells, vtkIdType ids, const IsValid& is_valid,
   const Describe& describe)

@@ -8,9 +8,10 @@ class vtkDataObject;
 namespace bindpose
 {
 
-/// Check the cells of a vtkPolyData or vtkUnstructuredGrid, because VTK reads them without a check
-/// and crashes: the offsets ascend from 0 to the number of point ids, and each cell has as many
-/// points as its type requires. Ids are not checked. Other objects are valid.
+/// Check the cells of a vtkPolyData or vtkUnstructuredGrid: the offsets must ascend from 0 to the
+/// number of point ids, and each cell must have as many points as its type requires. VTK reads
+/// cells without these checks and crashes if cells are invalid. The point ids are not checked. Data
+/// objects of other classes are valid.
 Status check_cells(vtkDataObject* data);
 
 } // namespace bindpose

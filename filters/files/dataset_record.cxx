@@ -301,7 +301,8 @@ vtkSmartPointer<vtkDataArray> read_numbers(RecordReader& from)
   return numbers;
 }
 
-/// Write the arrays, and for each array the ids of the attributes for which it is active.
+/// Write the arrays. For each array, also write the ids of the attributes (scalars, normals, …) for
+/// which it is the active array.
 void write_attributes(RecordWriter& to, vtkFieldData* data)
 {
   std::vector<std::pair<vtkAbstractArray*, vtkSmartPointer<vtkAbstractArray>>> arrays;
@@ -522,8 +523,8 @@ void write_extent(RecordWriter& to, const int* extent)
   }
 }
 
-/// Read an extent. An empty extent has an upper end directly below the lower end. VTK multiplies
-/// the numbers of points along the axes, so each must be at least 0.
+/// Read an extent. VTK multiplies the numbers of points along the axes, so each number must be at
+/// least 0. It is 0 in an empty extent, whose upper end is the lower end minus 1.
 std::array<int, 6> read_extent(RecordReader& from)
 {
   std::array<int, 6> extent{};

@@ -8,7 +8,7 @@ namespace bindpose
 
 std::string file_extension(const std::string& path)
 {
-  const std::size_t name = path.find_last_of('/') + 1; // start of the file name; npos + 1 is 0
+  const std::size_t name = path.find_last_of('/') + 1; // start of the name; 0 if there is no '/'
   const std::size_t dot = path.find_last_of('.');
   if (dot == std::string::npos || dot < name)
   {

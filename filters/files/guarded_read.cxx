@@ -1,4 +1,5 @@
-// Reading by the helper executable bindpose-reader, and headers that are parsed in this process.
+// Files are read by the helper executable bindpose-reader. The headers of .vti and legacy .vtk
+// files are parsed in this process.
 #include "guarded_read.h"
 
 #include "dataset_record.h"
@@ -38,8 +39,8 @@ std::string beginning(const std::string& path)
 }
 
 /// Return the memory limit of the helper in MiB, 0: no limit. The libraries take about 300 MiB of
-/// address space. Text takes less than 20 bytes of memory per byte. Compressed files and pictures
-/// expand by a factor of at most 1,032 (zlib with constant data).
+/// address space. Reading text takes less than 20 bytes of memory per byte of the file.
+/// Compressed files and pictures expand by a factor of at most 1,032 (zlib with constant data).
 Index memory_limit(const std::string& path, double size)
 {
 #if defined(__SANITIZE_ADDRESS__)

@@ -14,9 +14,9 @@ class vtkDataSet;
 namespace bindpose
 {
 
-/// Read a .vtp, .vtu, .vti or .vtk file, or a picture, with VTK's reader, in the helper executable
-/// bindpose-reader, because VTK's readers crash, hang or take all memory on some damaged files.
-/// Time and memory are limited in proportion to the size of the file.
+/// Read a .vtp, .vtu, .vti or .vtk file, or a picture. VTK's readers crash, hang or take all memory
+/// on some damaged files. Therefore the helper executable bindpose-reader reads the file. The time
+/// and memory limits of the helper grow linearly with the size of the file.
 /// @return invalid_input, naming the file and the reason, if the file cannot be read; canceled if
 /// the context was canceled; unavailable if the helper is not found
 BINDPOSEFILTERS_EXPORT Status read_guarded(
@@ -33,8 +33,8 @@ struct ImageHeader
 /// Read the header of a .vti file without VTK's reader. Return false if it has no valid extent.
 bool read_image_header(const std::string& path, ImageHeader& header);
 
-/// Return the class of the dataset in a legacy .vtk file ("vtkPolyData"), or an empty string if its
-/// header names none that is supported.
+/// Return the class of the dataset in a legacy .vtk file ("vtkPolyData"). Return an empty string if
+/// the header of the file does not name a supported class.
 std::string legacy_class(const std::string& path);
 
 } // namespace bindpose

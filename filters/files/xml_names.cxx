@@ -95,7 +95,8 @@ vtkSmartPointer<vtkAbstractArray> with_escaped_names(vtkAbstractArray* array)
   return copy;
 }
 
-/// Replace the arrays in their order, and keep the active attributes.
+/// Replace each array whose names must be escaped by a copy with escaped names. Keep the order of
+/// the arrays and the active attributes.
 void escape_arrays(vtkFieldData* data)
 {
   auto* attributes = vtkDataSetAttributes::SafeDownCast(data);

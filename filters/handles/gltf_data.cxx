@@ -310,8 +310,8 @@ Status read_gltf(const std::string& path, GltfData& data)
   {
     return Status::invalid_input(path + ": " + usable.message);
   }
-  // If a handle was read from the extras of its joint, use the handle's frame instead of the
-  // joint's frame, because the extras store all digits.
+  // If the handle's frame equals the joint's frame up to float round-off, use the handle's frame.
+  // It is more accurate if the handle was read from the joint's extras, which store all digits.
   std::vector<Eigen::Affine3d> rest;
   std::vector<Eigen::Affine3d> posed;
   Weights weights(skin.weights.rows(), skin.weights.cols());
@@ -364,7 +364,8 @@ Status GltfFile::read(const std::string& path)
   {
     const FileStamp before(path);
     this->status_ = read_gltf(path, this->data_);
-    // The stamp of the file is from before the read, so that a change during the read is noticed.
+    // Store the stamp of the file from before the read. If the file changes during the read, the
+    // stored stamp is then out of date, and the next call reads the file again.
     this->stamps_ = stamps_of(this->data_.buffer_files);
     this->stamps_.front() = before;
     if (!this->status_.ok())

@@ -1,7 +1,7 @@
-// Converts handles to graphs for .tgf files, and graphs to handles. Points are written first, then
-// bones, so that weight columns computed with the file match those of the handles. In the other
-// direction, nodes without a bone become the first handles, and bones the next ones. The parents of
-// bones follow from shared nodes.
+// Converts handles to graphs for .tgf files, and graphs to handles. Points are written before
+// bones, so that weights computed with the file have the same order of columns as weights computed
+// with the handles. When a graph is read, nodes without a bone become the first handles, and bones
+// become the next ones. Shared nodes determine the parents of bones.
 #include "handle_tgf.h"
 
 #include "conversion.h"

@@ -16,7 +16,7 @@ BINDPOSEFILTERS_EXPORT Status to_pseudo_edges(
   vtkPolyData* data, const Handles& handles, const std::vector<Index>& cells, PseudoEdges& edges);
 
 /// Add pseudo-edges to a handle dataset as its last cells. The dataset must not have polygons,
-/// which would follow the added lines.
+/// because the polygons of a polydata come after its lines.
 void add_pseudo_edges(vtkPolyData* data, const std::vector<Index>& cells, const PseudoEdges& edges);
 
 } // namespace bindpose

@@ -1,7 +1,7 @@
 // bindpose-reader PATH FORMAT > record
-// reads a dataset or a picture with one of VTK's readers in a separate process, because these
-// readers may crash, hang or take all memory on a damaged file. Bindpose starts this program (see
-// guarded_read.h); users do not call it.
+// reads a dataset or a picture in a separate process, because the readers may crash, hang or take
+// all memory on a damaged file. libpng and libtiff read PNG and TIFF files; VTK's readers read all
+// other formats. Bindpose starts this program (see guarded_read.h); users do not call it.
 #include "vtk_errors.h"
 
 #include "dataset_record.h"
@@ -144,7 +144,7 @@ int main(int argc, char* argv[])
       bindpose::helper_fail(status.message);
     }
   }
-  catch (const std::bad_alloc&) // VTK's arrays throw it without calling the new handler
+  catch (const std::bad_alloc&) // VTK's arrays throw bad_alloc without calling the new handler
   {
     bindpose::helper_fail("out of memory");
   }

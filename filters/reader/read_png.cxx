@@ -18,7 +18,7 @@ namespace
 /// Report whether a PNG file ends with its last chunk, IEND, which libpng does not read.
 bool has_end(const std::string& path)
 {
-  constexpr char end_chunk[] = "IEND\xae\x42\x60\x82"; // its type and its checksum
+  constexpr char end_chunk[] = "IEND\xae\x42\x60\x82"; // type and checksum of the chunk
   constexpr std::streamoff size = sizeof(end_chunk) - 1;
   std::ifstream file(path, std::ios::binary);
   std::string last(static_cast<std::size_t>(size), '\0');

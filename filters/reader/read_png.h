@@ -12,8 +12,9 @@ class vtkImageData;
 namespace bindpose
 {
 
-/// Read a PNG file with libpng, as red, green, blue and, if the file has it, alpha, in bytes. The
-/// top line of the image is at the largest y. (VTK's reader accepts some damaged files.)
+/// Read a PNG file with libpng. The scalars are unsigned chars: red, green and blue, and also alpha
+/// if the file has it. The top line of the image is at the largest y. (VTK's reader is not used,
+/// because it accepts some damaged files.)
 Status read_png(const std::string& path, vtkSmartPointer<vtkImageData>& image);
 
 } // namespace bindpose

@@ -48,7 +48,7 @@ Status read_tiff(const std::string& path, vtkSmartPointer<vtkImageData>& image)
   {
     return failure(reason);
   }
-  constexpr std::uint32_t longest_side = 65500; // as in JPEG files
+  constexpr std::uint32_t longest_side = 65500; // in pixels, like the limit of JPEG files
   if (width == 0 || height == 0 || width > longest_side || height > longest_side)
   {
     return Status::invalid_input("the picture has " + std::to_string(width) + " x " +
@@ -75,7 +75,7 @@ Status read_tiff(const std::string& path, vtkSmartPointer<vtkImageData>& image)
     const std::uint32_t alpha = has_alpha ? TIFFGetA(color) : 255;
     for (const std::uint32_t channel : { TIFFGetR(color), TIFFGetG(color), TIFFGetB(color) })
     {
-      // libtiff has multiplied the colors by alpha.
+      // Divide by alpha, because libtiff has multiplied the colors by alpha.
       *bytes++ = static_cast<unsigned char>(
         alpha > 0 ? std::min(255u, (channel * 255 + alpha / 2) / alpha) : 0);
     }

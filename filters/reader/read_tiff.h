@@ -12,9 +12,9 @@ class vtkImageData;
 namespace bindpose
 {
 
-/// Read the first image of a TIFF file with libtiff, as red, green, blue and, if the file has it,
-/// alpha, in bytes. The top line of the image is at the largest y. (VTK's reader turns most images
-/// upside down and crashes on some.)
+/// Read the first image of a TIFF file with libtiff. The scalars are unsigned chars: red, green and
+/// blue, and also alpha if the file has it. The top line of the image is at the largest y. (VTK's
+/// reader is not used, because it turns most images upside down and crashes on some.)
 Status read_tiff(const std::string& path, vtkSmartPointer<vtkImageData>& image);
 
 } // namespace bindpose

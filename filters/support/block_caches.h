@@ -9,7 +9,8 @@
 namespace bindpose
 {
 
-/// The block of a composite input on which a filter works. Without blocks it is block 0 of 1.
+/// The block of a composite input on which a filter works. An input that is not a composite counts
+/// as a single block.
 struct BlockNumber
 {
   std::size_t index = 0;
@@ -40,7 +41,7 @@ public:
   Cache* operator->() const { return &**this; }
 
   ///@{
-  /// Replace the cache of the current block, by an empty one if none is given.
+  /// Replace the cache of the current block by `cache`, or by an empty cache.
   void reset() { this->current() = std::make_unique<Cache>(); }
   void reset(std::unique_ptr<Cache> cache) { this->current() = std::move(cache); }
   ///@}

@@ -126,10 +126,11 @@ BINDPOSEFILTERS_EXPORT vtkSmartPointer<vtkUnstructuredGrid> to_unstructured_grid
 BINDPOSEFILTERS_EXPORT Status to_domain(
   vtkDataSet* data, Domain& domain, std::vector<Index>& cell_of_element);
 
-/// Return the handles of a handle dataset, cell by cell: vertices are points, 2-point lines are
-/// bones, unless the cell array HandleKind states another type. Missing arrays get defaults: names
-/// p1…, b1…, no parent. The handles are checked by check_handles(). Cage elements are left out of
-/// the list. cells[i] is the cell of handle i.
+/// Return the handles of a handle dataset in the order of their cells. The cell array HandleKind
+/// contains the type of each handle. If it is missing, vertices are points, and lines with two
+/// points are bones. Other missing arrays have defaults: the names p1, p2, … and b1, b2, …, and no
+/// parent. Edges and faces of cages are not in the list of handles. check_handles() checks the
+/// result. cells[i] is the cell of handle i.
 BINDPOSEFILTERS_EXPORT Status to_handles(
   vtkPolyData* data, Handles& handles, std::vector<Index>* cells = nullptr);
 

@@ -240,8 +240,8 @@ WindingMethod method_of(int method)
 }
 
 /// Convert the boundary edges to lines, and the properties of the surface's components to field
-/// data. `original` contains, for each row of `points`, the id of the point in the input. If
-/// `original` is empty, the row is the id.
+/// data. original[i] is the id, in the input, of the point in row i of `points`. If `original` is
+/// empty, the id is i.
 void to_polydata(const SurfaceBoundary& boundary, PointsView points,
   const std::vector<Index>& original, vtkPolyData* polydata)
 {

@@ -60,7 +60,7 @@ int main(int argc, char** argv)
 {
   catch_interrupts();
   // Ignore the signal SIGXFSZ: if the file size limit is exceeded, writing returns an error instead
-  // of ending the program. The helper program bindpose-mesher inherits that the signal is ignored.
+  // of ending the program. The helper program bindpose-mesher inherits this setting.
   std::signal(SIGXFSZ, SIG_IGN);
   vtkNew<SilentOutputWindow> silent;
   vtkOutputWindow::SetInstance(silent);

@@ -322,7 +322,8 @@ bool Session::check_report()
 
 bool Session::check_output(const std::string& path, const std::string& extensions)
 {
-  if (interrupted()) // because a sequence checks up to 100,000 files
+  // check for an interrupt, because a sequence calls this function for up to 100,000 files
+  if (interrupted())
   {
     return this->fail(Status::canceled());
   }

@@ -28,7 +28,8 @@ void run_again_under_xvfb(const std::vector<std::string>& command_line)
     return;
   }
   executable_path[length] = 0;
-  // A server that resets itself signals xvfb-run, which then can exit with 5 instead of our code.
+  // Use -noreset. A server that resets itself sends a signal to xvfb-run. Then xvfb-run may exit
+  // with code 5 instead of the exit code of this program.
   std::vector<std::string> words{ "xvfb-run", "-a", "-s", "-screen 0 1280x1024x24 -noreset",
     executable_path };
   words.insert(words.end(), command_line.begin(), command_line.end());

@@ -127,8 +127,8 @@ void write_rig(Session& session, vtkDataSet* mesh, vtkPolyData* handles, vtkPose
     return;
   }
   const bool is_static = linear && !morph && !frames.sequence;
-  // A glTF file is written as a whole. The buffer of the file and the frames are in memory
-  // together.
+  // A glTF file is written as a whole, so all frames and the buffer of the file are in memory at
+  // the same time.
   const double points = static_cast<double>(mesh->GetNumberOfPoints());
   const double frame_bytes = points * 3.0 * (sizeof(double) + sizeof(float));
   const Status memory = check_memory("an animation of " + std::to_string(frames.count) + " frames",

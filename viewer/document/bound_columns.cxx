@@ -130,7 +130,8 @@ vtkSmartPointer<vtkPointSet> BoundColumns::reordered(vtkPointSet* data) const
   }
   if (!this->exact_)
   {
-    vtkNew<vtkFieldData> fields; // the shallow copy shares its field data with the original
+    // a shallow copy shares the field data of the original, so give the copy its own field data
+    vtkNew<vtkFieldData> fields;
     fields->ShallowCopy(data->GetFieldData());
     for (const char* name : { "WeightsRelativeGap", "WeightsKKTResidual", "WeightsIterations" })
     {

@@ -82,7 +82,7 @@ Document::Document(QObject* parent)
 
 Document::~Document()
 {
-  this->history_->clear(); // the steps of the history refer to this document
+  this->history_->clear(); // delete the steps first, because they refer to this document
 }
 
 void Document::set_saved()
@@ -597,8 +597,8 @@ void Document::set_option_without_undo(const QString& key, const QVariant& value
 {
   const OptionInfo* option = find_option(key);
   const QVariant checked = option ? checked_option(*option, value) : QVariant();
-  // QVariant treats doubles that differ only by round-off as equal, and undo uses this comparison
-  // too. Such a value is not stored, because undo would not restore the old value.
+  // Do not store a value that differs from the old value only by round-off. QVariant treats such
+  // doubles as equal, and undo uses the same comparison, so undo would not restore the old value.
   if (checked.isValid() && checked != this->work_.options.value(key))
   {
     this->work_.options[key] = checked;

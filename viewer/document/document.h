@@ -56,7 +56,7 @@ public:
   vtkPolyData* handle_data() const;
   const bindpose::Handles& handles() const { return this->handles_; }
   const std::vector<bindpose::Index>& handle_cells() const { return this->cells_; }
-  /// Return the index of the handle with this cell of handle_data(); -1: none.
+  /// Return the index of the handle to which a cell of handle_data() belongs; -1: none.
   int handle_of_cell(vtkIdType cell) const;
   /// Return the pose of handle_data(). During a drag it differs from the pose of work().
   bindpose::Pose pose() const;
@@ -135,7 +135,7 @@ public:
   /// end_merge() or a step of another option. Values that the table (options.h) does not allow are
   /// ignored.
   void set_option(const QString& key, const QVariant& value);
-  /// Set several options as one undo step. It has the same name as a change of option `key`.
+  /// Set several options as one undo step. The step has the same name as a change of option `key`.
   void set_options(const Options& values, const QString& key);
   /// Set an option that the program itself has chosen, without an undo step. Undo and redo of steps
   /// that change the same option do not restore this value (see has_step_of).

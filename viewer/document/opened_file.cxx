@@ -29,8 +29,8 @@ using namespace bindpose;
 
 namespace
 {
-/// Silence an object's error and warning events, because readers and writers report by their
-/// status.
+/// Keep VTK from printing an object's errors and warnings, because the status and the report of a
+/// reader or writer contain these messages.
 void silence_events(vtkObject* object)
 {
   vtkNew<vtkCallbackCommand> nothing;

@@ -42,14 +42,15 @@ std::string tick_text(const ColorMap& map, std::size_t tick)
   return text;
 }
 
-// Return an upper estimate of the width of bold text, in pixels, to reserve space.
+// Return an upper bound of the width of bold text, in pixels. The bound determines the reserved
+// space.
 double text_width(const std::string& text, int font_size)
 {
   return 0.66 * font_size * static_cast<double>(text.size());
 }
 
-// Return the estimated width of text in plain letters, in pixels. In long texts, differences
-// between the widths of letters average out.
+// Return the estimated width of text that is not bold, in pixels. Long texts use the average width
+// of a letter, because the differences between letters average out. Short texts use text_width().
 double estimated_width(const std::string& text, int font_size)
 {
   constexpr std::size_t long_text_size = 8;

@@ -1,7 +1,7 @@
 // Renders datasets to a picture. A picture has three layers: the background over the whole window;
 // one renderer per tile (dataset), all with the same camera; text and legend on top. The picture is
-// drawn in parts, larger than requested, and then averaged down to its size, because the driver's
-// antialiasing smooths neither isolines nor color bands.
+// drawn in parts at a higher resolution, and each pixel is the average of its samples. The driver's
+// antialiasing is not sufficient, because it smooths neither isolines nor color bands.
 #include "pictures/picture.h"
 
 #include "base/number_text.h"
@@ -177,7 +177,7 @@ Status check_tets(const std::vector<Tile>& tiles, const PictureOptions& options)
   return {};
 }
 
-// Count all defects of the picture. A context dataset that several tiles show is counted once.
+// Count all defects of the picture. A dataset that several tiles show is counted once.
 std::vector<Category> all_defects(const std::vector<Tile>& tiles, bool& any)
 {
   std::vector<Category> categories = defect_categories();
@@ -279,7 +279,9 @@ int choose_columns(int count, double width, double height, double shape_aspect)
 // Largest fraction of the picture's height that lists of names may occupy.
 constexpr double maximum_list_fraction = 0.94;
 
-// Return the map that a legend shows: the whole map as a bar, or one field per isosurface level.
+// Return the color map of the legend. Without isosurfaces, the result is the map itself. For
+// isosurfaces, the result has one field per level. If there is also a volume rendering, the result
+// is the map with the levels as additional ticks.
 ColorMap make_legend_map(const PictureOptions& options, const ColorMap& map)
 {
   if (options.isosurfaces.empty())
@@ -520,7 +522,7 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& req
   vtkNew<vtkRenderWindow> window;
   window->SetOffScreenRendering(1);
   window->SetAlphaBitPlanes(1);
-  // The driver cannot sort see-through surfaces by depth with several samples per pixel.
+  // With several samples per pixel, the driver cannot sort translucent surfaces by depth.
   window->SetMultiSamples(samples > 1 && !needs_depth_sort(tiles, options) ? 4 : 0);
   window->SetNumberOfLayers(3);
 

@@ -11,8 +11,8 @@
 namespace bindpose
 {
 
-/// Report whether the extension of a file name is that of an image file that read_picture()
-/// supports: png, jpg, jpeg, tif, tiff or bmp.
+/// Report whether read_picture() supports the extension of a file name: png, jpg, jpeg, tif, tiff
+/// or bmp.
 bool is_picture_file(const std::string& path);
 
 /// Read an image file as vtkPictureFileReader does.

@@ -133,7 +133,7 @@ void add_lines(vtkRenderer* renderer, vtkPolyData* data, const Rgb& color, doubl
   renderer->AddActor(actor);
 }
 
-// Show the map's colors unchanged.
+// Draw the colors of the map unchanged, without shading.
 void disable_lighting(vtkActor* actor)
 {
   actor->GetProperty()->LightingOff();
@@ -241,8 +241,8 @@ void add_shrunk(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput
   add_flat(renderer, data, coloring, scale);
 }
 
-// Add the slice of the tets by the plane, and the part of the boundary behind the plane. The slice
-// is unlit, so that its colors are readable.
+// Cut the tets by the plane. Add the slice and the part of the boundary behind the plane. The slice
+// is drawn without lighting, so that its colors are readable.
 Status add_tet_slice(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput& input,
   const Plane& plane, const PictureOptions& options, const Coloring& coloring, double scale,
   Index& drawn_tets, std::vector<char>& drawn_points)
@@ -386,7 +386,7 @@ void add_slice(vtkRenderer* renderer, vtkImageData* image, const PictureOptions&
   }
 }
 
-// Let the graphics driver sort see-through surfaces by depth where they cross.
+// Enable depth peeling, which draws intersecting translucent surfaces in the correct order.
 void sort_by_depth(vtkRenderer* renderer)
 {
   renderer->SetUseDepthPeeling(true);
@@ -405,8 +405,8 @@ void add_isosurfaces(vtkRenderer* renderer, vtkImageData* image, const PictureOp
     const auto actor = add_actor(renderer, surface, Coloring());
     const Rgb color = color_of(coloring.map, level);
     set_color(actor->GetProperty(), color);
-    // Draw slightly darker than the map, so that the map's white at 0.5 stands out from a white
-    // background.
+    // Make the surface slightly darker than the color of its level. Otherwise a white surface
+    // (level 0.5) would not stand out from a white background.
     actor->GetProperty()->SetAmbient(0.14);
     actor->GetProperty()->SetDiffuse(0.76);
     const bool innermost = level == *highest || (level == *lowest && level < 0.0);
@@ -456,7 +456,7 @@ void add_lines_and_points(
   }
   if (data->GetNumberOfCells() != copy->GetNumberOfCells())
   {
-    // Remove the cell values, because they include those of the removed cells.
+    // Remove the cell arrays, because they still contain values of removed cells.
     copy->GetCellData()->Initialize();
   }
   const auto actor = add_actor(renderer, copy, coloring);
@@ -624,9 +624,9 @@ Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& o
   const Coloring& coloring, const std::vector<Extremum>& extrema, const Frame& frame, double scale,
   DrawnCounts& drawn_counts)
 {
-  // For tets, one flag per point: 1 if an extremum at this point is drawn, i.e. for points of drawn
-  // faces and corners of shrunk or sliced tets. Empty for all other datasets: all extrema are
-  // drawn.
+  // For tets, one flag per point: 1 for the points of drawn faces and for the corners of shrunk or
+  // sliced tets. Only extrema at these points are drawn. For all other datasets the list is empty,
+  // and all extrema are drawn.
   std::vector<char> drawn_points;
   if (auto* image = vtkImageData::SafeDownCast(tile.data))
   {
@@ -663,7 +663,7 @@ Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& o
     const auto actor = add_surface(renderer, surface, options, coloring, scale);
     if (actor && tile.defects)
     {
-      // Draw the surface see-through, because most defects are inside or behind it.
+      // Make the surface translucent, because most defects are inside or behind it.
       actor->GetProperty()->SetOpacity(0.4);
       sort_by_depth(renderer);
     }
@@ -738,8 +738,8 @@ void add_lights(vtkRenderer* renderer)
   kit->SetHeadLightWarmth(0.5);
   kit->SetKeyToBackRatio(3.6);
   kit->AddLightsToRenderer(renderer);
-  // This ambient color affects only volume renderings: CPU ray casting takes the ambient light from
-  // the lights, whereas surfaces have their own ambient property.
+  // This ambient color affects only volume renderings. VTK's CPU ray casting uses the ambient
+  // colors of the lights; surfaces use the ambient coefficient of their property instead.
   renderer->GetLights()->InitTraversal();
   vtkLight* first = renderer->GetLights()->GetNextItem();
   const double full = 1.0 / first->GetIntensity();

@@ -19,14 +19,15 @@ std::vector<std::string> codec_of(const std::string& extension)
 {
   if (extension == "gif")
   {
-    // Compute a palette of 256 colors from these frames; ffmpeg's default palette is generic.
+    // Compute the palette of 256 colors from the frames. ffmpeg's default palette does not depend
+    // on the frames.
     return { "-vf", "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse" };
   }
   if (extension == "apng")
   {
     return { "-plays", "0", "-f", "apng" };
   }
-  // Many players support only even sizes and one color per four pixels.
+  // Many players require an even width and height, and yuv420p: one color sample per four pixels.
   const std::string even_size_filter = "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white";
   return extension == "webm" ? std::vector<std::string>{ "-vf", even_size_filter, "-c:v",
     "libvpx-vp9", "-crf", "24", "-b:v", "0", "-pix_fmt", "yuv420p" }

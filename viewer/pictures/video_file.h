@@ -18,8 +18,8 @@ Status check_ffmpeg();
 /// Return the path of the image file of a frame (counted from 0) in a folder.
 std::string frame_file(const std::string& folder, int frame);
 
-/// Write an animation of the image files in a folder. The file names must be those of frame_file().
-/// ffmpeg writes directly to `path`; the extension of `path` determines the format.
+/// Write an animation of the image files in a folder. The file names must be the results of
+/// frame_file(). ffmpeg writes directly to `path`; the extension of `path` determines the format.
 Status write_video(ExecutionContext& context, const std::string& folder, double frames_per_second,
   const std::string& path);
 

@@ -228,7 +228,8 @@ void fill_image(const Samples& on_white, const Samples& on_black, const Rect& ti
         background_fraction += (white[k] - black[k]) / (3.0 * 255.0);
       }
       const double opacity = 1.0 - background_fraction;
-      // Make almost clear pixels fully clear: they show planes that are drawn only for picking.
+      // Make almost transparent pixels fully transparent, because they show only planes that are
+      // drawn for picking.
       const bool clear = opacity < 1.5 / 255.0;
       to = std::transform(black.begin(), black.end(), to,
         [&](double value) { return clear ? byte(0.0) : byte(value / opacity); });

@@ -35,7 +35,7 @@ struct WindowPicture
 };
 
 /// Draw the content of a window at any size, even larger than the largest framebuffer. The picture
-/// is drawn in tiles, so that the required graphics memory is that of one tile. A tile is a part of
+/// is drawn in tiles, so that only one tile must fit into the graphics memory. A tile is a part of
 /// every renderer's view. If there are several samples per pixel (see WindowPicture::samples), each
 /// sample counts as a pixel for sizes that actors specify in pixels, such as line widths and text.
 /// ScaledLines compensates for this.

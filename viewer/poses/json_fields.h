@@ -132,7 +132,7 @@ public:
 private:
   static std::string text(double number)
   {
-    std::string digits = std::to_string(number); // std::to_string() writes six decimals
+    std::string digits = std::to_string(number); // always has six decimals
     digits.erase(digits.find_last_not_of('0') + 1);
     return digits.back() == '.' ? digits.substr(0, digits.size() - 1) : digits;
   }

@@ -22,7 +22,7 @@ constexpr const char* interpolation_words[] = { "linear", "spline" };
 Vec3 spline_point(const Vec3 (&p)[4], const double (&t)[4], double time)
 {
   const double span = t[2] - t[1];
-  // The slope at a key is that of the parabola through the key and its two neighbors.
+  // The slope at a key is the slope of the parabola through the key and its two neighbors.
   const auto slope = [&](int k, int before, int after) -> Vec3
   {
     const double h0 = t[k] - t[before], h1 = t[after] - t[k];

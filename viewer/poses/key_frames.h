@@ -6,8 +6,8 @@
 namespace bindpose
 {
 
-/// Interpolation of pivots between keys. All other values do not depend on this choice. Rotations
-/// are interpolated along the shorter arc (slerp). Scale, shear, stretch and twist are interpolated
+/// The interpolation of pivots between keys. Only pivots depend on this choice. Rotations are
+/// interpolated along the shorter arc (slerp). Scale, shear, stretch and twist are interpolated
 /// linearly. Between two keys, handles have the modes of the earlier key.
 enum class KeyInterpolation : int
 {

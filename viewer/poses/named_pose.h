@@ -35,8 +35,8 @@ private:
 };
 
 /// Return {NAME: {"mode": "full", "transform": [12 numbers, 3x4 row by row], "stretch": 1, "twist":
-/// [0, 0]}}. The numbers have all digits, unlike in a pose file. A missing field means the value at
-/// rest.
+/// [0, 0]}}. Numbers are written with full precision, unlike in a pose file. A reader gives a
+/// missing field its value at rest.
 nlohmann::ordered_json to_json(const NamedPose& pose);
 Status from_json(const nlohmann::ordered_json& json, NamedPose& pose);
 

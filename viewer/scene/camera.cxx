@@ -147,8 +147,9 @@ bool sees_all(vtkCamera* camera, PointsView points, const Axes& axes, double asp
   return true;
 }
 
-/// Return the smallest distance from the center of the points' bounding box at which a camera that
-/// looks at this center sees all points. For a parallel view, return the smallest parallel scale.
+/// A camera looks at the center of the points' bounding box. Return the smallest distance from this
+/// center at which the camera sees all points. For a parallel view, return the smallest parallel
+/// scale.
 double minimum_size(vtkCamera* camera, PointsView points, const Axes& axes, double aspect)
 {
   const Vec3 center = bounding_box(points).center();

@@ -85,8 +85,9 @@ ColorMap winding_map();
 
 /// Return the map's color of a value. Values outside get the color of the nearest end.
 Rgb color_of(const ColorMap& map, double value);
-/// Return a legend of single values. It has one field per level, in the color that the map gives to
-/// the level; the lowest level is at the bottom.
+/// Return a color map for a legend of single levels, which must be in ascending order. The legend
+/// has one field per level, in the color that `map` gives to the level. The lowest level is at the
+/// bottom.
 ColorMap level_map(const ColorMap& map, const std::vector<double>& levels);
 /// Add the levels to the ticks of the map. Ticks whose texts would overlap the text of a level are
 /// removed.

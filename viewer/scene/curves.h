@@ -20,7 +20,7 @@ bool is_curve_data(vtkDataSet* data);
 /// Return actors that show the lines of a polydata as round tubes, and as faint lines where
 /// something hides them. The cell array Multiplicity states how often the boundary of a surface
 /// uses a line. It sets the width of a tube: factor 1.5 for multiplicity 2, factor 2 for 3 and
-/// more. Lines with 0 are left out. The result is empty if there are no lines.
+/// more. Lines of multiplicity 0 are left out. The result is empty if there are no lines.
 /// @param radius  radius of the tubes, world units
 /// @param line_width  width of the faint lines, pixels
 std::vector<vtkSmartPointer<vtkActor>> make_curves(

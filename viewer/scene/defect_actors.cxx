@@ -87,8 +87,8 @@ std::vector<vtkSmartPointer<vtkActor>> make_defects(vtkPolyData* defects, double
       property->SetPointSize(static_cast<float>(3.0 * line_width));
       property->SetRenderPointsAsSpheres(dots); // draw round dots
       property->SetOpacity(hidden ? 0.35 : 1.0);
-      // A large depth offset draws in front of everything; a small one just in front of the surface
-      // that contains the defect.
+      // A large depth offset draws hidden defects in front of everything. A small depth offset
+      // draws defects just in front of the surface that contains them.
       const double depth_offset = hidden ? -66000.0 : -8.0;
       actor->GetMapper()->SetRelativeCoincidentTopologyLineOffsetParameters(0.0, depth_offset);
       actor->GetMapper()->SetRelativeCoincidentTopologyPointOffsetParameter(depth_offset);

@@ -1,7 +1,7 @@
 // Finds local extrema of the displayed array and draws them as balls. The kernel finds the extrema
-// on the graph of the mesh's points. The dark rim of a ball is a larger ball of which only the far
-// side is drawn, so that the ball is visible on any color. Both balls are moved in front of the
-// surface, on the line to the eye; otherwise the surface would cover the rim.
+// on the graph of the mesh's points. A dark rim makes a ball visible on any color. The rim is a
+// larger ball of which only the back faces are drawn. Both balls are moved in front of the surface,
+// on the line to the eye; otherwise the surface would cover the rim.
 #include "scene/extrema.h"
 
 #include "conversion.h"

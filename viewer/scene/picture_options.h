@@ -24,8 +24,8 @@ namespace bindpose
 ///   have edges and another color. On request, the plane cuts through tets, or all tets are shrunk.
 ///   Arrays are shown as colors on all faces;
 /// - defects (output of vtkSurfaceDefects): one color per type, with a legend;
-/// - image volume: one slice through the middle, and for a winding number also the surface where it
-///   is 0.5; on request isosurfaces or a volume rendering instead of the slice;
+/// - image volume: one slice through the middle, and for winding numbers also the isosurface of
+///   level 0.5; on request isosurfaces or a volume rendering instead of the slice;
 /// - handles (a polydata with HandleKind or HandleName): drawn over everything else;
 /// - curves (lines of more than two points, or with the cell array Multiplicity): green tubes;
 /// - other lines and points: as lines and points.
@@ -37,7 +37,7 @@ struct Tile
   /// Additional datasets that are drawn uncolored: surfaces and tets translucent, curves as tubes.
   std::vector<vtkSmartPointer<vtkDataSet>> context{};
   /// Output of vtkSurfaceDefects, or null. The defects are drawn over the surface `data`, and this
-  /// surface becomes see-through.
+  /// surface becomes translucent.
   vtkSmartPointer<vtkPolyData> defects{};
 };
 
@@ -123,7 +123,7 @@ struct PictureOptions
   double shrink = 1.0;
   /// Levels of the isosurfaces that image volumes show instead of a slice, each in the map's color.
   /// The surface of the highest level is opaque. The surface of the lowest level is also opaque if
-  /// this level is below 0. All other surfaces are see-through.
+  /// this level is below 0. All other surfaces are translucent.
   std::vector<double> isosurfaces;
   /// Show image volumes of winding numbers by volume rendering instead of slices; see
   /// make_winding_volume().
@@ -133,7 +133,7 @@ struct PictureOptions
   /// all antialiasing.
   int supersampling = 2;
   /// Tiles that are not drawn but are included in the view and the range of the colors, for example
-  /// the other frames of a film.
+  /// the other frames of an animation.
   std::vector<Tile> undrawn_tiles;
 };
 

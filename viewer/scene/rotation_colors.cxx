@@ -26,9 +26,9 @@ vtkDataArray* cluster_array(vtkDataSet* data)
   return data ? data->GetPointData()->GetArray("RotationCluster") : nullptr;
 }
 
-/// Call `each` for every cell. Its arguments are the cell, the cluster of most of its points (the
-/// lowest if several are equally frequent), and the clusters of all its points in ascending order.
-/// A cell without a cluster gets -1 and an empty list.
+/// Call `each` for every cell. The arguments of `each` are the cell, the cluster of most of its
+/// points (the lowest if several are equally frequent), and the clusters of all its points in
+/// ascending order. A cell without a cluster gets -1 and an empty list.
 template <typename Cell>
 void for_each_cell(vtkDataSet* data, const Cell& each)
 {
@@ -55,8 +55,8 @@ void for_each_cell(vtkDataSet* data, const Cell& each)
 
 using Pairs = std::set<std::pair<int, int>>; // pairs of clusters that touch, the higher index first
 
-/// Return a handle color for each cluster. The color differs from those of all clusters with a
-/// lower index that touch the cluster.
+/// Return a handle color for each cluster. The color differs from the colors of all touching
+/// clusters with a lower index.
 std::vector<std::size_t> assign_colors(std::size_t clusters, const Pairs& touching)
 {
   std::vector<std::size_t> colors;

@@ -1,6 +1,6 @@
 // Uploads a surface with moved points to the graphics card. vtkOpenGLPolyDataMapper rebuilds its
 // index buffers whenever the data set is newer than the buffers. The modification time of a data
-// set includes that of its points, so moved points would cause a rebuild.
+// set includes the modification time of its points, so moved points would cause a rebuild.
 #include "shapes/moved_surface_mapper.h"
 
 #include "base/parallel.h"

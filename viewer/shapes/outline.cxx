@@ -29,7 +29,7 @@ Outline::Outline(vtkRenderer* renderer) : renderer_(renderer)
   this->mapper_->SetRelativeCoincidentTopologyLineOffsetParameters(-1.0, -1.0);
   this->actor_->SetMapper(this->mapper_);
   this->actor_->PickableOff();
-  this->actor_->UseBoundsOff(); // the bounds of the surface actor are sufficient
+  this->actor_->UseBoundsOff(); // the bounds of the surface contain the lines
   this->actor_->VisibilityOff();
   vtkProperty* property = this->actor_->GetProperty();
   property->LightingOff();

@@ -29,8 +29,8 @@ public:
   /// 180]. At or above this angle, the common edge of the two triangles is drawn sharp.
   explicit ShadedSurface(vtkPolyData* surface, double feature_angle = 50.0);
 
-  /// Report whether another surface has the same points and cells as the input, so that
-  /// set_arrays() can use its arrays.
+  /// Report whether another surface has the same points and cells as the input. Only then can
+  /// set_arrays() be called with this surface.
   bool has_same_mesh(vtkPolyData* surface) const;
   /// Reset the points to those of `surface`, and replace the point and cell arrays by those of
   /// `surface`. has_same_mesh(surface) must be true.
@@ -65,7 +65,7 @@ private:
   vtkNew<vtkFloatArray> normals_; ///< normals of the drawn points
 };
 
-/// Apply the material of surfaces in Bindpose: soft, with a slight gloss.
+/// Apply the material of surfaces in Bindpose: mostly diffuse, with a weak specular highlight.
 void use_surface_material(vtkActor* actor);
 
 } // namespace bindpose

@@ -27,8 +27,8 @@ public:
   explicit TetCut(PointsView points, TetsView tets);
 
   /// Keep exactly the tets whose center is not on the side of the plane that the normal points to.
-  /// Earlier calls have no effect. keep_all() keeps all tets, which is the initial state. The cost
-  /// is 1 microsecond per 1000 tets.
+  /// The result does not depend on earlier calls. keep_all() keeps all tets, which is the initial
+  /// state. The cost is 1 microsecond per 1000 tets.
   void keep_behind(const Vec3& origin, const Vec3& normal);
   void keep_all();
 

@@ -274,7 +274,8 @@ DragMotion Drag::scale_motion() const
   }
   if (this->typed_amount_)
   {
-    // A typed negative factor mirrors. The magnitude is at least smallest_factor.
+    // A negative typed factor gives a reflection. The magnitude of the factor is at least
+    // smallest_factor.
     factor = std::copysign(
       std::max(std::abs(*this->typed_amount_), smallest_factor), *this->typed_amount_);
   }

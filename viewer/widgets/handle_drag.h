@@ -25,7 +25,7 @@ struct DragSetup
 {
   DragKind kind = DragKind::move;
   Eigen::Vector3d pivot = Eigen::Vector3d::Zero(); ///< center of rotations and scales
-  /// Position through which the plane or the line of a move goes.
+  /// The grabbed position. The plane or the line of a move goes through this position.
   Eigen::Vector3d grabbed = Eigen::Vector3d::Zero();
   /// Vector from the pivot to the end of the arm, for the kinds aim, stretch and reach.
   Eigen::Vector3d arm = Eigen::Vector3d::Zero();

@@ -50,8 +50,8 @@ public:
   std::vector<HandleData::CellPose> poses();
 
   /// Handle an axis key: constrain the drag to an axis, or to the plane perpendicular to it. The
-  /// first press uses the settings' space, the second the other space, and the third removes the
-  /// constraint.
+  /// first press uses the axes of the space in the settings. A second press of the same key uses
+  /// the axes of the other space. A third press removes the constraint.
   void press_axis(int axis, bool plane);
   /// Handle a key that edits a typed value: a digit, '.', '-' (toggles the sign) or 'b' (deletes
   /// the last character). Return false for any other key.

@@ -59,8 +59,8 @@ struct EditResult
 };
 
 /// Creates and moves handles at rest interactively. The dataset is written only when an edit is
-/// complete; until then there is a preview. All edits are functions of handle_edits.h. If they
-/// refuse an edit, nothing changes.
+/// complete; until then there is a preview. The functions of handle_edits.h perform all edits. If a
+/// function refuses an edit, nothing changes.
 class RestEditor
 {
 public:
@@ -69,7 +69,7 @@ public:
 
   /// Update the preview for a mouse position without a pressed button.
   void hover(const ScreenView& view, const MouseState& mouse_state, const EditSettings& settings);
-  /// Clear the preview, because the mouse is not on a position for a handle.
+  /// Clear the preview, for example when the mouse has left the view.
   void clear_preview();
   /// Handle a press of the button. Return true if a drag or a placement has begun or is complete
   /// (see take_result()).

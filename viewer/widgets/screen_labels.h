@@ -25,8 +25,8 @@ public:
   void clear() { this->used_actors_ = 0; }
   /// Add a text.
   /// @param scale   factor on the font's size
-  /// @param color  color of the text, which is then bold, centered and has no background plate;
-  /// null: use the properties of text()
+  /// @param color  color of the text. The text is then bold and centered, without a background
+  /// plate. If null, the properties of text() are used.
   void add(const std::string& text, const Eigen::Vector2d& display, double scale,
     const double* color = nullptr);
   int render(vtkViewport* viewport);

@@ -322,8 +322,8 @@ public:
   ///@}
 
   ///@{
-  /// Allow drags of handles in mode free. Such a drag pulls a simulated body and releases it at the
-  /// end. Default off.
+  /// Allow drags of handles in mode free. Turn this on while a body is simulated: a drag then pulls
+  /// the body, and the end of the drag releases the body. Default off.
   vtkSetMacro(DragFree, vtkTypeBool);
   vtkGetMacro(DragFree, vtkTypeBool);
   vtkBooleanMacro(DragFree, vtkTypeBool);
@@ -427,7 +427,7 @@ public:
   /// of InteractionStateType.
   int ComputeInteractionState(int x, int y, int modify = 0) override;
 
-  /// Clear the highlight, because the mouse is not on a handle.
+  /// Clear the highlight. Call this when the mouse is not on a handle.
   void LeaveHandles();
 
   ///@{
@@ -447,7 +447,8 @@ public:
 
   ///@{
   /// Constrain the current drag to an axis (0, 1, 2) or to the plane perpendicular to it. The first
-  /// call uses Space, the second the other space, and the third removes the constraint.
+  /// call uses the axes of Space. A second call with the same arguments uses the axes of the other
+  /// space. A third call removes the constraint.
   void ConstrainDrag(int axis, bool plane);
   /// Handle a key that edits a typed value, which replaces the mouse: a digit, '.', '-' (toggles
   /// the sign) or 'b' (deletes the last character). The value is a length along the axis of the

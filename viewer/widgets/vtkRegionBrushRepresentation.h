@@ -104,7 +104,7 @@ public:
   ///@}
   /// End the stroke and restore all labels to their state at its start.
   void CancelWidgetInteraction();
-  /// Hide the disc, because the mouse is not on the surface.
+  /// Hide the disc. Call this when the mouse is not on the surface.
   void Leave();
 
 protected:

@@ -1,7 +1,7 @@
-// ParaView connects the text property of the filter with the widget's proxy, and so with the
-// representation, in both directions: unchecked values of the filter go to the representation, and
-// edits go to the unchecked values. This file copies an unchecked value to the checked value when
-// the edit is applied.
+// ParaView links the text property of the filter to the representation, through the widget's proxy.
+// If the unchecked value of the property changes, ParaView sends it to the representation. If the
+// user edits the handles, ParaView writes the new text to the unchecked value. When the edit is
+// applied, this file copies the unchecked value to the checked value.
 #include "pqHandlesPropertyWidget.h"
 
 #include "vtkHandleSetRepresentation.h"
@@ -37,7 +37,7 @@
 
 namespace
 {
-/// Keeps changes of proxies out of the undo stack while it exists.
+/// While an object of this class exists, the undo stack does not record changes of proxies.
 class NonUndoableChanges
 {
 public:
@@ -94,8 +94,8 @@ pqHandlesPropertyWidget::pqHandlesPropertyWidget(const char* representation, con
     this, &pqHandlesPropertyWidget::widgetVisibilityToggled, this->shown_, &QCheckBox::setChecked);
   this->setWidgetVisible(true);
 
-  // begin_drag() stores the state of the panel, which the observers of the superclass then change.
-  // Therefore begin_drag() has a higher priority, so that it is called before these observers.
+  // The observers of the superclass change the state of the panel. begin_drag() must store the
+  // state before this change, so it has a higher priority than these observers.
   vtkSMProxy* widget = this->widgetProxy();
   this->start_observer_ = widget->AddObserver(
     vtkCommand::StartInteractionEvent, this, &pqHandlesPropertyWidget::begin_drag, 1.0f);
@@ -378,7 +378,8 @@ vtkSmartPointer<vtkDataObject> pqHandlesPropertyWidget::fetch(vtkSMProxy* produc
     return port < algorithm->GetNumberOfOutputPorts() ? algorithm->GetOutputDataObject(port)
                                                       : nullptr;
   }
-  // The data is on a server, whose first process has all handles. Move them to the client.
+  // The data is on a server. The first process of the server has all handles; move the handles to
+  // the client.
   const NonUndoableChanges changes;
   vtkSmartPointer<vtkSMSourceProxy> mover;
   mover.TakeReference(vtkSMSourceProxy::SafeDownCast(

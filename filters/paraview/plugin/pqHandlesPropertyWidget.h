@@ -24,10 +24,10 @@ class vtkSMProperty;
 /// Base class of the panels with a handle widget in the render view. A panel edits one text
 /// property, either with the widget or in a text field.
 ///
-/// An edit with the mouse is applied without the Apply button: when it ends and, if
-/// applies_during_drag(), also during the drag. Each edit is one undo step, and a Python trace
-/// records the property once. A proxy that was never applied gets the text only by the Apply
-/// button, like other properties.
+/// An edit with the mouse is applied without the Apply button when it ends. If
+/// applies_during_drag() is true, it is also applied during the drag. Each edit is one undo step,
+/// and a Python trace records the property once. If the proxy was never applied, edits wait for
+/// the Apply button, like changes of other properties.
 class pqHandlesPropertyWidget : public pqInteractivePropertyWidget
 {
   Q_OBJECT

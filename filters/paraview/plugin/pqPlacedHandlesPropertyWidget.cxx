@@ -118,8 +118,8 @@ pqOutputPort* pqPlacedHandlesPropertyWidget::chosen_shape() const
   return entry >= 0 && entry < this->ports_.size() ? this->ports_[entry].data() : nullptr;
 }
 
-/// List the visible shapes of the view. The chosen shape stays chosen while it is visible;
-/// otherwise the first shape is chosen.
+/// List the visible shapes of the view. If the chosen shape is still visible, it stays chosen. If
+/// the user has chosen "None", "None" stays chosen. Otherwise the first shape is chosen.
 void pqPlacedHandlesPropertyWidget::list_shapes()
 {
   pqOutputPort* chosen = this->chosen_shape();
@@ -314,7 +314,7 @@ QString pqPlacedHandlesPropertyWidget::message() const
 
 QString pqPlacedHandlesPropertyWidget::step_name() const
 {
-  // The widget names the interaction, for example "add point", "move rest" or "close cage".
+  // The name of an interaction is, for example, "add point", "move rest" or "close cage".
   const std::string interaction =
     this->handle_widget() ? this->handle_widget()->GetInteractionName() : "";
   return tr("Handles: %1").arg(QString::fromStdString(interaction));

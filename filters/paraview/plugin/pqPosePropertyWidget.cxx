@@ -281,8 +281,8 @@ void pqPosePropertyWidget::read_input()
   }
 }
 
-/// If the pose is fixed (it cannot be dragged), read the posed handles from the output of the
-/// filter.
+/// If the pose is fixed, i.e. its handles cannot be dragged, read the posed handles from the output
+/// of the filter.
 void pqPosePropertyWidget::read_output()
 {
   if (vtkPVHandleSetRepresentation* representation = this->representation())

@@ -87,8 +87,8 @@ vtkPVHandleSetRepresentation::~vtkPVHandleSetRepresentation() = default;
 
 void vtkPVHandleSetRepresentation::SetInputHandles(vtkPolyData* handles)
 {
-  // ParaView also reports updates that did not execute the algorithm. Posing the handles again
-  // would end a drag.
+  // ParaView also reports updates that did not execute the algorithm. Ignore them, because posing
+  // the handles again would end a drag.
   const vtkMTimeType time = handles ? handles->GetMTime() : 0;
   if (handles && handles == this->InputObject && time == this->InputTime)
   {
@@ -130,7 +130,8 @@ bool vtkPVHandleSetRepresentation::IsPoseFixed()
 void vtkPVHandleSetRepresentation::SetPoseJSON(const char* text)
 {
   const std::string value = text ? text : "";
-  // ParaView sends back the text of every drag. Posing the handles again would end the drag.
+  // ParaView sends back the text of every drag. Ignore this text, because posing the handles again
+  // would end the drag.
   if (value != this->GetPoseJSON())
   {
     this->PoseJSON = value;

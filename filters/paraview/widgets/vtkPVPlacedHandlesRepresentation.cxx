@@ -113,15 +113,16 @@ vtkPVPlacedHandlesRepresentation::~vtkPVPlacedHandlesRepresentation() = default;
 void vtkPVPlacedHandlesRepresentation::SetHandlesText(const char* text)
 {
   const std::string value = text ? text : "";
-  // ParaView sends back the text of every edit. Reading it would end the edit.
+  // ParaView sends back the text of every edit. Ignore this text, because reading it would end the
+  // edit.
   if (value == this->GetHandlesText())
   {
     return;
   }
   this->CancelWidgetInteraction();
   this->FinishCage();
-  // Canceling has restored the handles from before the edit. They are replaced below, so do not
-  // write their text.
+  // The cancel has restored the handles from before the edit. ReadText() replaces these handles, so
+  // do not write their text.
   this->FormattedTime = this->PlacedHandles->GetMTime();
   this->HandlesText = value;
   if (this->ReadText())

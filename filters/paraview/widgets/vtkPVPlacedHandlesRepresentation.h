@@ -47,9 +47,10 @@ public:
 
   ///@{
   /// Edit the selected handles. DeleteSelectedHandles() removes them. ConnectSelectedHandles()
-  /// connects the last two: two points become the ends of a bone, a selected bone contributes its
-  /// tail, and two cage vertices get an edge, or lose it if they have one. Return false if nothing
-  /// has changed; GetTextMessage() returns the reason.
+  /// connects the last two of them. Between two cage vertices it adds an edge, or removes the edge
+  /// if it exists. Between points and bones it adds a bone: a point becomes an end of the bone, and
+  /// a bone is connected at its tail. Return false if nothing has changed; GetTextMessage() returns
+  /// the reason.
   bool DeleteSelectedHandles();
   bool ConnectSelectedHandles();
   ///@}

@@ -61,7 +61,7 @@ HandleEditing::HandleEditing(Document* document, view::Viewport* viewport,
   if (auto* overlay_layout = qobject_cast<QBoxLayout*>(viewport->layout()))
   {
     overlay_layout->insertWidget(0, this->bar_, 0, Qt::AlignLeft | Qt::AlignTop);
-    // legends are on the left, so this text is on the right
+    // the legends are on the left, so put the card on the right
     overlay_layout->addWidget(this->start_card_, 0, Qt::AlignRight | Qt::AlignBottom);
   }
   QObject::connect(this->bar_, &ModeBar::done_requested, this, [this] { this->set_mode(pose); });
@@ -108,9 +108,9 @@ HandleEditing::HandleEditing(Document* document, view::Viewport* viewport,
         this->commands_->menu()->popup(list->viewport()->mapToGlobal(position));
       }
     });
-  // A pose was typed, or key frames are played: leave the edit mode, which shows the shape at rest.
-  // Also stop a drag that was started by a key, because canceling it later would restore the old
-  // pose.
+  // A pose was typed, or key frames are played. Leave the edit mode, because it shows the shape at
+  // rest. Also cancel a drag that was started by a key, because canceling the drag later would
+  // restore the old pose.
   QObject::connect(posing, &posing::PoseController::pose_changed, this,
     [this]
     {
@@ -142,7 +142,7 @@ QAction* HandleEditing::add_action(
   action->setObjectName(name);
   action->setCheckable(true);
   action->setData(value);
-  if (keys != "Esc") // the constructor connects a shortcut for Esc to step_back()
+  if (keys != "Esc") // for Esc, the constructor has a separate shortcut, which calls step_back()
   {
     action->setShortcut(QKeySequence(keys));
   }

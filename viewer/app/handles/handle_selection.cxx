@@ -106,7 +106,8 @@ void HandleSelection::handles_changed()
 bool HandleSelection::edit(const QString& step, const HandleListEdit& edit, vtkDataArray* labels)
 {
   Q_EMIT this->about_to_edit();
-  this->representation()->FinishCage(); // the edit may change the vertices of an unfinished cage
+  // finish the cage first, because the edit may change the vertices of an unfinished cage
+  this->representation()->FinishCage();
   std::vector<Index> new_cell_of_cell;
   std::vector<Index> added;
   const Status status =

@@ -68,7 +68,7 @@ QIcon kind_icon(HandleKind kind)
     painter.end();
     pixmap.setDevicePixelRatio(scale);
     icon.addPixmap(pixmap);
-    icon.addPixmap(pixmap, QIcon::Selected); // otherwise Qt tints icons of selected rows
+    icon.addPixmap(pixmap, QIcon::Selected); // without this pixmap, Qt tints icons of selected rows
   }
   return icon;
 }
@@ -149,7 +149,7 @@ HandleTree::HandleTree(QWidget* parent)
       if (item && this->tree_->selectedItems().isEmpty() &&
         QApplication::mouseButtons() == Qt::NoButton)
       {
-        // at the first arrow key, Qt makes the first row current, but does not select it
+        // select the row, because Qt only makes it current when the first arrow key is pressed
         item->setSelected(true);
       }
     });
@@ -267,7 +267,7 @@ void HandleTree::select(const std::vector<int>& handles)
     }
     if (last)
     {
-      this->tree_->scrollToItem(last); // also expands the parents of the item
+      this->tree_->scrollToItem(last); // scrollToItem() also expands the item's parents
     }
   }
   this->tree_->viewport()->update();

@@ -32,19 +32,19 @@ public:
     int parent = -1; ///< index of the parent in the list of rows; -1: no parent
     int mode = static_cast<int>(bindpose::HandleMode::automatic);
   };
-  /// Replace all rows and clear the selection. A new row is collapsed if the old row with its name
-  /// was collapsed.
+  /// Replace all rows and clear the selection. A new row is collapsed if the old row with the
+  /// same name was collapsed.
   void set_rows(const std::vector<Row>& rows);
   const std::vector<Row>& rows() const { return this->rows_; }
   void set_mode(int handle, int mode);
-  /// Select only these handles, and emit chosen() if the selection changes.
+  /// Select only these handles, and emit selection_changed() if the selection changes.
   void select(const std::vector<int>& handles);
   /// Return the selected handles in the order of their selection.
   const std::vector<int>& selected() const { return this->selected_; }
 
   QTreeWidget* tree() const { return this->tree_; }
   QTreeWidgetItem* item(int handle) const { return this->items_[static_cast<std::size_t>(handle)]; }
-  /// Return the handle of an item.
+  /// Return the index of the handle that an item shows.
   static int handle_of(const QTreeWidgetItem* item);
   QLineEdit* search() const { return this->search_; }
 

@@ -311,7 +311,7 @@ bool RegionPainting::commit_stroke(std::string& region)
   }
   if (!status.ok())
   {
-    this->document_changed(); // the edit was refused: restore the labels
+    this->document_changed(); // restore the labels, because the edit was refused
     Q_EMIT this->edit_refused(QString::fromStdString(status.message));
   }
   return status.ok();

@@ -49,8 +49,8 @@ public:
 Q_SIGNALS:
   /// Emitted when the brush or the region has changed, or a stroke has begun or ended.
   void changed();
-  /// Emitted when a stroke was stored. `region` is the name of the painted region. After erasing,
-  /// it is the name of the selected region; empty: none.
+  /// Emitted when a stroke was stored. `region` is the name of the painted region or, after
+  /// erasing, the name of the selected region; empty: no region is selected.
   void region_painted(const QString& region);
   void edit_refused(const QString& message);
 

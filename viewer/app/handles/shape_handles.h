@@ -20,8 +20,9 @@ class NoticeBar;
 namespace app::handles
 {
 
-/// Creates handles that fit the shape, in the background: bones along its curve skeleton, or points
-/// spread over it. They replace the existing handles in one undo step of the document.
+/// Creates handles that fit the shape, in the background: bones along the curve skeleton of the
+/// shape, or points spread over the shape. The new handles replace the existing handles in one undo
+/// step of the document.
 class ShapeHandles : public QObject
 {
   Q_OBJECT

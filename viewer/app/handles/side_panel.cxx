@@ -53,7 +53,8 @@ SidePanel::SidePanel(HandleTree* handle_tree, QWidget* parent)
   {
     this->method_box_->setItemText(k, tr("%1 weights").arg(this->method_box_->itemText(k)));
   }
-  // This combo box determines the width of the panel, in any font.
+  // Make this combo box as wide as its longest item in any font. Its width determines the width of
+  // the panel.
   this->method_box_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   this->method_box_->setToolTip(
     tr("Bounded: smooth functions between 0 and 1.\n"
@@ -220,7 +221,8 @@ void SidePanel::set_handles(const std::vector<HandleTree::Row>& handles)
   this->show_mode();
 }
 
-/// Return the width in pixels that an item "Weights of NAME" of the combo box leaves for the name.
+/// Return the width in pixels that is available for the name of a handle in the combo box, whose
+/// items have the form "Weights of NAME".
 int SidePanel::available_name_width() const
 {
   const int field = this->method_box_->sizeHint().width() - this->shown_label_->sizeHint().width() -
@@ -274,9 +276,9 @@ void SidePanel::select_handles(const std::vector<int>& handles)
 void SidePanel::set_state(bool ready, bool binding, bool bound)
 {
   this->stopping_ = false;
-  // If the button Bind has the keyboard focus when a bind begins, move the focus to Cancel, and
-  // after the bind back to Bind. When any other widget with the focus is disabled, Qt moves the
-  // focus to the list of handles, which selects a handle. Therefore clear the focus first.
+  // If the button Bind has the keyboard focus, move the focus to Cancel when a bind begins, and
+  // back to Bind when the bind ends. Clear the focus of every widget before disabling the widget.
+  // Otherwise Qt would move the focus to the list of handles, and the list would select a handle.
   const bool had_focus = this->bind_->hasFocus() || this->cancel_->hasFocus();
   const auto enable = [](QWidget* widget, bool on)
   {

@@ -36,8 +36,8 @@ public:
   /// @param handles  the list in which handles are selected; it is outside this panel
   explicit SidePanel(HandleTree* handles, QWidget* parent = nullptr);
 
-  /// Replace the handles. The displayed weights column stays with its handle, which is found by its
-  /// name. If the handle no longer exists, no column is displayed.
+  /// Replace the handles. The panel continues to display the weights of the handle with the same
+  /// name as before. If this handle no longer exists, no column of the weights is displayed.
   void set_handles(const std::vector<HandleTree::Row>& handles);
   void set_mode(int handle, int mode);
   /// Select only this handle; -1: none.
@@ -65,7 +65,7 @@ public:
   posing::HandleFields* fields() const { return this->fields_; }
   posing::PoseListWidget* poses() const { return this->poses_; }
 
-  /// Return the chosen method of weights.
+  /// Return the weight method that the user has chosen.
   const bindpose::WeightMethod& method() const;
   /// Return the domain on which weights are solved.
   bindpose::WeightsDomain domain() const;

@@ -47,7 +47,8 @@ bool FieldGuard::eventFilter(QObject* watched, QEvent* event)
 
 void FieldGuard::polish(QWidget* widget) const
 {
-  // With the policy WheelFocus, Qt sets the focus before it delivers the wheel event.
+  // Replace the policy WheelFocus. With WheelFocus, Qt gives the widget the focus before the wheel
+  // event arrives, so block_wheel() would not block the event.
   if (widget->focusPolicy() == Qt::WheelFocus)
   {
     widget->setFocusPolicy(Qt::StrongFocus);

@@ -35,7 +35,8 @@ void NoticeBar::offer(const QString& message, const QList<Choice>& choices, cons
   for (QPushButton* button : this->buttons_)
   {
     button->hide();
-    button->deleteLater(); // not delete, because a click on the button may have caused this call
+    // do not delete the button now, because a click on it may have caused this call
+    button->deleteLater();
   }
   this->buttons_.clear();
   this->set_message(message);

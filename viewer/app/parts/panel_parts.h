@@ -22,7 +22,8 @@ QPushButton* button(const QString& text, QWidget* parent);
 /// Add a row of buttons of which exactly one is pressed, initially the first. Ids count from 0.
 QButtonGroup* add_segments(
   QBoxLayout* column, QWidget* parent, const QStringList& names, const QStringList& tips);
-/// Disable one item of a list (-1: none), and show the reason as its tooltip. Enable all others.
+/// Disable one item of a list (-1: none), and show the reason as its tooltip. Enable all other
+/// items.
 void enable_all_but(QComboBox* list, int item, const QString& reason);
 /// Return the text with a capital first letter.
 QString capitalized(const QString& text);

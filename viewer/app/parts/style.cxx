@@ -197,8 +197,8 @@ const char* const appearance_key = "appearance";
 const char* const appearance_words[] = { "system", "light", "dark" };
 bool dark_now = false;
 
-/// Report whether the desktop is dark. The first call must precede changes of the palette, because
-/// the result is computed from the palette that the application has at this time.
+/// Report whether the desktop is dark. The first call computes the result from the application's
+/// palette, so it must precede all changes of the palette.
 bool system_is_dark(const QApplication& application)
 {
   static const bool dark = application.palette().color(QPalette::Window).lightness() < 128;

@@ -10,8 +10,8 @@
 
 // All keys and mouse buttons of the window in one table. Actions read their shortcuts from the
 // table. The shortcut sheet and `bindpose key-table` show the table together with the bindings of
-// the widgets. This header does not use Qt, because the program also uses it when the program is
-// built without the window.
+// the widgets. This header does not use Qt, because it is also compiled in builds without the
+// window.
 
 namespace app::parts
 {

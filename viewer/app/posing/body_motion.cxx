@@ -1,6 +1,6 @@
 // Moves the shape as a body with mass, in real time with fixed time steps. Steps that cannot be
-// computed in time are skipped. The body then moves more slowly than the clock, but its time steps
-// do not become longer.
+// computed in time are skipped. The body then moves more slowly than in real time, but its time
+// steps do not become longer.
 #include "app/posing/body_motion.h"
 
 #include "app/posing/pose_panel.h"

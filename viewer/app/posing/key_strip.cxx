@@ -24,7 +24,8 @@ using namespace bindpose;
 namespace
 {
 constexpr int strip_margin = 14;
-// the mouse grabs a key if it is at most this far from the center of the key's mark, in pixels
+// maximum horizontal distance in pixels from the center of a key's mark at which a press grabs the
+// key
 constexpr int grab_distance = 6;
 
 QString seconds_text(double seconds)

@@ -52,8 +52,9 @@ PoseGhost::PoseGhost(view::Viewport* viewport) : viewport_(viewport)
       k, ghost_color[0], ghost_color[1], ghost_color[2], k / (steps - 1.0));
   }
   this->mapper_->SetLookupTable(this->opacity_table_);
-  // The ghost can coincide with the current shape although the distances of the points are not
-  // zero, if points have moved only within the surface. Draw the current shape in front.
+  // If points have moved only within the surface, the ghost is visible, because its points differ
+  // from those of the current shape. But both surfaces have the same depth. Draw the current shape
+  // in front.
   vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
   this->mapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(2.0, 2.0);
   this->distances_->SetName(distance_name);
@@ -127,7 +128,7 @@ void PoseGhost::move(bindpose::PointsView points, bindpose::PointsView first)
 }
 
 /// Make the ghost transparent where it coincides with the current shape. Otherwise round-off would
-/// decide for each pixel which of the two surfaces is drawn.
+/// determine for each pixel which of the two surfaces is visible.
 void PoseGhost::update_opacities(bindpose::PointsView points, bindpose::PointsView first)
 {
   if (points.rows() != first.rows())

@@ -221,7 +221,7 @@ void PoseController::connect_pose_manager()
 void PoseController::options_changed()
 {
   this->deformation_->set_options(this->panels_.pose->options());
-  this->deformation_->bind(); // restarts a bind that the user has canceled
+  this->deformation_->bind(); // bind() restarts a bind that the user has canceled
   this->show_comparison();
   this->motion_->options_changed();
   this->update_automatic_modes();
@@ -627,8 +627,8 @@ void PoseController::order_layers()
     }
     if (status.usable())
     {
-      // Offset all layers away from the eye, so that lines on the shape stay in front of the
-      // layers.
+      // Move no layer toward the eye, so that lines on the shape stay in front of all layers. The
+      // frontmost layer has the offset 0; the other layers are moved away from the eye.
       const double layer = 1e-3 * bounding_box(this->source_->points).diagonal();
       depths = layer * (order.front.array() - order.front.maxCoeff()).matrix();
     }

@@ -56,8 +56,8 @@ public:
   void set_data(
     vtkPolyData* surface, vtkUnstructuredGrid* tets, vtkPolyData* handles, bool use_weights);
   bool has_weights() const;
-  /// Set the unit normal of a planar surface, which points to the eye; empty: the surface is not
-  /// planar. If a planar surface overlaps itself in a pose, the layers of the handles determine
+  /// Set the unit normal of a planar surface. The normal points to the eye. Empty: the surface is
+  /// not planar. If a planar surface overlaps itself in a pose, the layers of the handles determine
   /// which part is in front. This function must be called before set_data().
   void set_plane(const std::optional<bindpose::Vec3>& normal) { this->plane_ = normal; }
   /// Report whether the method has all data that it needs.

@@ -218,7 +218,8 @@ Status SequenceExport::write_datasets(const std::string& path)
 Status SequenceExport::write_rig(const std::string& path)
 {
   vtkNew<vtkGLTFSkinWriter> writer;
-  // Add observers, so that VTK does not print the errors. The writer's status contains them, too.
+  // Add observers, so that VTK does not print errors and warnings. The writer's status contains
+  // these messages.
   vtkNew<vtkCallbackCommand> silent_observer;
   silent_observer->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
   writer->AddObserver(vtkCommand::ErrorEvent, silent_observer);

@@ -286,7 +286,8 @@ void TetInspection::update_defects()
 void TetInspection::search_defects()
 {
   this->reports_defects_ = this->surface_ != nullptr;
-  // Wait until the surface is drawn. With software rendering, drawing needs all cores.
+  // Begin the search after the surface is drawn: software rendering uses all cores, and the search
+  // would slow it down.
   this->waits_for_drawing_ = this->reports_defects_ && this->viewport_->isVisible();
   if (!this->waits_for_drawing_)
   {

@@ -346,7 +346,7 @@ QString SimulatedUser::push_button(const QString& text)
     name.remove('&');
     while (!name.isEmpty() && !name[0].isLetterOrNumber())
     {
-      name.remove(0, 1); // removes the mark in front of a section's name
+      name.remove(0, 1); // the heading of a section begins with a mark
     }
     if (name != text || !each->isVisible())
     {
@@ -356,7 +356,7 @@ QString SimulatedUser::push_button(const QString& text)
     if (each->isEnabled())
     {
       each->click();
-      QApplication::processEvents(); // lays out the widgets that have appeared
+      QApplication::processEvents(); // let Qt lay out the widgets that have appeared
       scroll_to(each);
       return {};
     }

@@ -94,7 +94,7 @@ struct TourStep
   double turns = 0.0; ///< notches of the mouse wheel; positive: away from the user
 
   double seconds = -1.0; ///< for `wait`: duration; for `scrub`: time on the timeline
-  std::array<int, 2> size{ 0, 0 }; ///< window size to resize to
+  std::array<int, 2> size{ 0, 0 }; ///< for `resize`: new size of the window, in pixels
   TourPart part = TourPart::window; ///< the part that a screenshot shows
   int width = 0; ///< maximum width of a screenshot in pixels; 0: no limit
   /// For a screenshot of the view: each pixel of the view becomes `scale` by `scale` pixels.

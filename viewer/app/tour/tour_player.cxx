@@ -233,7 +233,7 @@ Status TourPlayer::write_record(const TourRequest& request) const
   {
     return {};
   }
-  // Names may contain bytes that are not valid UTF-8.
+  // Replace invalid UTF-8, because names may contain arbitrary bytes.
   return write_file_atomically(request.folder + "/tour.json",
     this->record_.dump(2, ' ', false, Json::error_handler_t::replace) + '\n', request.overwrite);
 }
@@ -275,7 +275,7 @@ QString TourPlayer::answer_dialogs(
   QString title;
   bool answered = false;
   QPointer<QDialog> accepted;
-  QTimer dialog_timer; // also fires in the event loop of a modal dialog
+  QTimer dialog_timer; // this timer also fires while a modal dialog is open
   QObject::connect(&dialog_timer, &QTimer::timeout, &dialog_timer,
     [&]
     {
@@ -288,12 +288,13 @@ QString TourPlayer::answer_dialogs(
           // No confirmation is necessary, because play() has already checked the file.
           files->setOption(QFileDialog::DontConfirmOverwrite);
           auto* name = files->findChild<QLineEdit*>();
-          name->setText(file); // selectFile() does not change a field that has the keyboard focus
+          // do not use selectFile(), because it does not change a field with the keyboard focus
+          name->setText(file);
           answered = true;
         }
         accepted = form;
-        // Queue accept(), because it may open another dialog and wait for it. This timer, which
-        // answers the dialogs, does not fire again before this function returns.
+        // Queue the call of accept(), because accept() may open another dialog and wait for the
+        // answer. The timer cannot answer that dialog before this function has returned.
         QMetaObject::invokeMethod(form, "accept", Qt::QueuedConnection);
       }
       else if (dialog)

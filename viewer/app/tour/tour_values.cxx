@@ -306,7 +306,7 @@ double seconds_since_start()
 {
   std::ifstream file("/proc/self/stat");
   std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  // the process name in parentheses may contain any characters
+  // find the last parenthesis, because the process name in parentheses may contain any characters
   const std::size_t name_end = text.rfind(')');
   timespec now{};
   if (name_end == std::string::npos || clock_gettime(CLOCK_BOOTTIME, &now) != 0)
@@ -314,7 +314,7 @@ double seconds_since_start()
     return -1.0;
   }
   std::istringstream fields(text.substr(name_end + 1));
-  // Number of fields from the third (state) to the 22nd (start time).
+  // Number of fields between the process name and the start time: from field 3 to field 21.
   constexpr int skipped_field_count = 19;
   std::string skipped;
   for (int k = 0; k < skipped_field_count; ++k)

@@ -22,7 +22,7 @@ class Application
 public:
   Application()
   {
-    QApplication::setApplicationName("bindpose"); // part of the recovery folder's path
+    QApplication::setApplicationName("bindpose"); // the recovery folder's path contains this name
     QApplication::setApplicationDisplayName("Bindpose");
     parts::apply_style(this->application_);
   }

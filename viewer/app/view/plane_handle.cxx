@@ -45,14 +45,15 @@ PlaneHandle::PlaneHandle(Viewport* viewport, QObject* parent) : QObject(parent),
     bindpose::palette::line[0], bindpose::palette::line[1], bindpose::palette::line[2]);
   set_color_and_opacity(this->plane_->GetOutlineProperty(), bindpose::palette::edges);
   set_color_and_opacity(this->plane_->GetSelectedOutlineProperty(), bindpose::palette::edges);
-  // Not fully transparent, because the mouse cannot grab a transparent plane.
+  // Draw the plane nearly transparent. The mouse cannot grab a fully transparent plane.
   set_color_and_opacity(this->plane_->GetPlaneProperty(), bindpose::palette::white, 0.005);
   set_color_and_opacity(this->plane_->GetSelectedPlaneProperty(), bindpose::palette::white, 0.005);
   this->widget_->SetInteractor(viewport->interactor());
   this->widget_->SetRepresentation(this->plane_);
   this->widget_->SetCurrentRenderer(renderer);
   this->widget_->SetDefaultRenderer(renderer);
-  // Lower than the default of VTK's widgets, so that handles receive mouse events first.
+  // This priority is lower than the default of VTK's widgets, so that handles receive mouse events
+  // first.
   this->widget_->SetPriority(0.4F);
   // Remove the middle and right mouse buttons from the widget. They then move and zoom the camera.
   for (const unsigned long event :
@@ -310,7 +311,8 @@ bool PlaneHandle::eventFilter(QObject* watched, QEvent* event)
     {
       this->cancel();
     }
-    // Accept the event, because Esc is also a shortcut of the window, which leaves the edit mode.
+    // Accept the event. Otherwise Esc would also trigger the window's shortcut that leaves the edit
+    // mode.
     event->accept();
     return true;
   }

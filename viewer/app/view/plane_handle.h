@@ -113,7 +113,7 @@ private:
   bindpose::Box box_;
   bool shown_ = false;
   State state_;
-  State state_before_drag_; ///< state before the drag
+  State state_before_drag_;
   bool dragged_ = false;
   bindpose::Vec3 grabbed_point_ =
     bindpose::Vec3::Zero(); // point of the plane that the mouse has grabbed

@@ -136,8 +136,8 @@ void VolumeView::update_slice()
   this->contour_actor_->SetVisibility(shown);
   if (shown)
   {
-    // Move a slice on the border of the volume slightly inside, because flying edges (VTK's filter)
-    // find no cell exactly on the border.
+    // If the slice is on the border of the volume, move the slice slightly inside. VTK's flying
+    // edges filter finds no cell exactly on the border.
     const auto [first, last] = this->positions();
     const double clamped_position =
       std::clamp(this->position(), first + 1e-6 * (last - first), last - 1e-6 * (last - first));

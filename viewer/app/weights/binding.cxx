@@ -106,7 +106,8 @@ vtkSmartPointer<vtkPolyData> Binding::with_weights(const BindResult& result) con
   }
   auto bound = vtkSmartPointer<vtkPolyData>::New();
   bound->ShallowCopy(surface);
-  vtkNew<vtkFieldData> own_fields; // the shallow copy shares its field data with the original
+  // a shallow copy shares the field data of the original, so give the copy its own field data
+  vtkNew<vtkFieldData> own_fields;
   own_fields->ShallowCopy(surface->GetFieldData());
   bound->SetFieldData(own_fields);
   add_weights(result, handles, bound);

@@ -319,7 +319,8 @@ void WeightInspection::comparison_finished()
   add_weights(result, handles, this->compared_);
   this->compared_method_ = this->method_;
   this->compared_seconds_ = result.status.report.number("seconds.total", 0.0);
-  // If the weights of all handles were displayed, choose the column with the largest difference.
+  // If the weights of all handles were displayed, choose the column in which the weights of the two
+  // methods differ most.
   if (this->panel_->column() < 0)
   {
     const auto surface_weights = to_matrix(this->surface_->GetPointData()->GetArray("Weights"));

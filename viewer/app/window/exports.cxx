@@ -44,7 +44,8 @@ QString short_path(const QString& path)
 Status write_rig(vtkPolyData* surface, vtkPolyData* handles, const QString& path)
 {
   vtkNew<vtkGLTFSkinWriter> writer;
-  // Add observers, so that VTK does not print the errors. The writer's status contains them, too.
+  // Add observers, so that VTK does not print errors and warnings. The writer's status contains
+  // these messages.
   vtkNew<vtkCallbackCommand> silent_observer;
   silent_observer->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
   writer->AddObserver(vtkCommand::ErrorEvent, silent_observer);
@@ -148,7 +149,7 @@ bool Exports::save_shape(const QString& path)
 bool Exports::save_rig(const QString& path)
 {
   const Document* document = this->parts_.document;
-  QApplication::setOverrideCursor(Qt::WaitCursor); // a large mesh takes seconds
+  QApplication::setOverrideCursor(Qt::WaitCursor); // writing a large mesh takes seconds
   const Status status = write_rig(document->surface(), document->handle_data(), path);
   QApplication::restoreOverrideCursor();
   const auto method = static_cast<PoseMethod>(document->number("pose.method"));
@@ -168,7 +169,7 @@ bool Exports::save_pose(const QString& path)
 
 bool Exports::save_picture(const QString& path, int scale, bool transparent)
 {
-  QApplication::setOverrideCursor(Qt::WaitCursor); // a large image takes seconds
+  QApplication::setOverrideCursor(Qt::WaitCursor); // rendering a large image takes seconds
   vtkSmartPointer<vtkImageData> picture;
   Status status = this->parts_.viewport->take_picture(scale, transparent, picture);
   if (status.ok())

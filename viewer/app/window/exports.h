@@ -33,7 +33,7 @@ struct ExportParts
   Document* document;
   view::Viewport* viewport;
   posing::PoseController* posing;
-  const WindowSessions* sessions; ///< name of the open data
+  const WindowSessions* sessions; ///< provides the name of the open data
   parts::ErrorBar* errors;
   parts::NoticeBar* bar; ///< shows the path of the written file
 };

@@ -139,7 +139,8 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), document_(new Doc
   QObject::connect(this->document_, &Document::about_to_change, this->editing_,
     &handles::HandleEditing::cancel_interaction);
   QObject::connect(this->document_, &Document::changed, this, &MainWindow::document_changed);
-  // The history updates its saved state only at the end of a step; update the title then.
+  // The history updates its saved state at the end of a step, after Document::changed() was
+  // emitted. Therefore update the title again at the end of the step.
   QObject::connect(
     this->document_->history(), &QUndoStack::indexChanged, this, &MainWindow::update_title);
   QObject::connect(this->document_, &Document::option_changed, this, &MainWindow::option_changed);
@@ -206,8 +207,8 @@ void MainWindow::make_layout()
   this->binding_ = new weights::Binding(this->document_, this->panel_, this->rebind_bar_, this);
   QObject::connect(this->shape_handles_, &handles::ShapeHandles::rigged, this,
     [this] { this->binding_->start(); });
-  // This must be the first connection to this signal: painting must end before another panel shows
-  // its own colors.
+  // This must be the first connection to panel_shown(), because the painting of regions must end
+  // before another panel shows its own colors.
   QObject::connect(this->panels_, &PanelColumn::panel_shown, this,
     [this](int panel)
     {
@@ -471,7 +472,7 @@ void MainWindow::document_changed(int parts)
   }
   else if (parts & handle_looks_part)
   {
-    this->posing_->layers_changed(); // no new bind is needed
+    this->posing_->layers_changed(); // layers, colors and locks do not affect a bind
   }
   if (parts & pose_part)
   {

@@ -160,7 +160,8 @@ private:
   void update_title();
 
   Document* document_;
-  // Parts of the window. Tours and tests find them by their type, and the bars by their names.
+  // Parts of the window. Tours and tests find each part by its type, and each bar by its object
+  // name.
   view::Viewport* viewport_ = nullptr;
   volume::VolumeView* volume_view_ = nullptr;
   tets::TetInspection* tet_inspection_ = nullptr;
@@ -175,7 +176,7 @@ private:
   handles::HandleEditing* editing_ = nullptr;
   weights::Binding* binding_ = nullptr;
   handles::ShapeHandles* shape_handles_ = nullptr;
-  posing::KeyStrip* strip_ = nullptr; // below the 3D view
+  posing::KeyStrip* strip_ = nullptr; // shown below the 3D view
   PanelColumn* panels_ = nullptr;
   posing::RotationView* rotations_ = nullptr;
   posing::DistanceView* distances_ = nullptr;
@@ -194,7 +195,7 @@ private:
   parts::NoticeBar* export_bar_ = nullptr; // shows what was exported and to which path
   /// The status line. It describes the current interaction, or the last pose.
   parts::ElidedLabel* hint_ = nullptr;
-  EmptyState* empty_ = nullptr; // in the middle of the 3D view while no file is open
+  EmptyState* empty_ = nullptr; // shown in the middle of the 3D view while no file is open
   vtkSmartPointer<vtkPolyData> drawn_surface_; // the surface that the viewport shows
   bool timeline_ = false; // true: show the timeline; set by the user or the first key frame
   bool has_keys_ = false;

@@ -302,8 +302,8 @@ Probe::OptionalHit Probe::surface(const ViewRay& ray, bool other) const
   }
   Hit found;
   found.distance = hit.distance;
-  // Show coordinates of the shape itself. The drawn points can differ from them, because the view
-  // adds offsets to the layers of a planar shape.
+  // Show coordinates of the shape itself. The drawn points can differ from the points of the shape,
+  // because the view adds offsets to the layers of a planar shape.
   const Vec3 drawn_position = point_on_ray(ray, hit.distance);
   Vec3 position = Vec3::Zero();
   Index nearest = -1;

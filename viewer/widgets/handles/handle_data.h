@@ -51,8 +51,9 @@ public:
 
   /// Return all cells. With at_rest, transforms and stretches are ignored.
   std::vector<HandleRecord> records(bool at_rest = false) const;
-  /// Replace mode automatic by the mode that a pose method uses for it. If the method computes
-  /// rotations, resolve_automatic_modes() chooses the mode; otherwise it is full.
+  /// Replace mode automatic in all records by the mode that the pose method uses instead. If the
+  /// method computes rotations, resolve_automatic_modes() chooses this mode; otherwise this mode is
+  /// full.
   static void resolve_modes(std::vector<HandleRecord>& records, bool finds_rotations);
   /// Return one cell, or a default-constructed HandleRecord if the cell does not exist.
   HandleRecord record(vtkIdType cell, bool at_rest = false) const;

@@ -137,8 +137,9 @@ void reset_peak_memory()
 }
 
 /// Measure one row of the table: the bind, iterations without and with acceleration, a cold solve
-/// (from the rest pose) to convergence, and a change of modes. Google Benchmark's own time is that
-/// of the cold solve.
+/// (from the rest pose) to convergence, and a change of modes. The counter converge_us is the time
+/// of one cold solve. The time that Google Benchmark itself reports contains all repetitions of the
+/// cold solve.
 template <typename Elements>
 void measure_reduced(benchmark::State& state, const Points& points, const Elements& elements,
   const Weights& weights, const Handles& handles, const ReducedArapOptions& options)

@@ -55,7 +55,7 @@ def make(options):
         numbers[f"{name}: distances of neighbors"] = [float(gaps.min()), float(gaps.max())]
         files.append(f"{name}.vtp")
         bindpose.write(to_dataset((points_of(posed), mesh[1])), options.scratch / files[-1])
-    # Join two copies of the string at the same position.
+    # Create a mesh of two copies of the balls, at the same positions.
     twice = to_dataset(meshes.joined(mesh, mesh))
     row = np.asarray(point_array(weighted, "Weights"))
     add_point_array(twice, "Weights", np.vstack([row, row]), ["p1", "p2", "p3"])

@@ -22,14 +22,14 @@ open_figure.ClipType.Normal = [0.0, 1.0, 0.0]
 sphere = Sphere(registrationName="Sphere", Center=[0.3, 0.4, 0.0], Radius=0.2, ThetaResolution=24, PhiResolution=24)
 scan = AppendDatasets(registrationName="Scan", Input=[open_figure, sphere])
 
-# Inside or outside
+# Winding numbers: inside or outside
 defects = SurfaceDefects(registrationName="Defects", Input=scan)
 field = WindingNumberField(registrationName="Winding Numbers", Input=scan, Resolution=128)
 middle = Slice(registrationName="Middle", Input=field, SliceType="Plane")
 middle.SliceType.Origin = [0.0, 0.0, 0.0]
 middle.SliceType.Normal = [0.0, 0.0, 1.0]
 
-# The tets of the inside
+# Tets of the interior
 tets = TetrahedralizeSurface(registrationName="Tets", Input=scan)
 back_half = Clip(registrationName="Back Half", Input=tets, ClipType="Plane", Crinkleclip=1)
 back_half.ClipType.Origin = [0.0, 0.0, 0.0]

@@ -80,7 +80,7 @@ class Rig:
             remember_run(self._mesh, getattr(weights, "report", {}))
         if data.GetPoints() is not None:
             points = vtkPoints()
-            points.SetDataType(data.GetPoints().GetDataType())  # otherwise the copy has single precision
+            points.SetDataType(data.GetPoints().GetDataType())  # the default is single precision
             points.DeepCopy(data.GetPoints())
             self._mesh.SetPoints(points)
         self._handles = to_handles(handles, data)

@@ -40,7 +40,7 @@ def test_amount_of_insideness(tmp_path):
 
 def test_jump_and_harmonic(tmp_path):
     numbers = numbers_of("gallery/jump_and_harmonic.py", tmp_path)
-    assert numbers["crossings"] == 8  # two each for the closed mesh, the open mesh and both nested meshes
+    assert numbers["crossings"] == 8  # closed mesh 2, open mesh 2, nested meshes 2 each
     assert numbers["largest |jump - 1|"] <= 1e-12
     assert numbers["largest violation of the mean value property"] <= 1e-12
     assert numbers["order of the Laplacian"] == pytest.approx(2, abs=0.1)
@@ -138,7 +138,7 @@ def test_torus_and_tubes(tmp_path):
     for name in ("torus rings", "straight tubes", "half the domain"):
         apart, narrowest = numbers[f"{name}: largest distance from the torus"], numbers[f"{name}: smallest radius"]
         assert apart[0] > apart[1] > apart[2] and narrowest[0] < narrowest[1] < narrowest[2]
-        # For order 1, the surface is a straight line from one end to the other.
+        # For order 1, the patch runs straight from one end to the other end.
         assert numbers[f"{name}: kink at the end of the patch in degrees"][0] == pytest.approx(45, abs=1)
         assert max(numbers[f"{name}: kink at the end of the patch in degrees"][1:]) < 10
     rings, tubes = (numbers[f"{name}: largest distance from the torus"] for name in ("torus rings", "straight tubes"))
@@ -179,7 +179,7 @@ def test_crowd(tmp_path):
 def test_jello(tmp_path):
     numbers = numbers_of("gallery/jello.py", tmp_path)
     aside, peaks = numbers["aside"], numbers["kinetic energy at its peaks"]
-    # The top overshoots to the other side, and the amplitude decreases.
+    # The top of the bar swings to the other side of its rest position, and the amplitude decreases.
     assert aside[0] > 0.25 and min(aside) < -0.1 and abs(aside[-1]) < 0.5 * aside[0]
     assert numbers["turns"] >= 2
     assert peaks == sorted(peaks, reverse=True) and 0 < peaks[-1] < 0.6
@@ -267,9 +267,10 @@ def test_boundary_and_parts(tmp_path):
         assert numbers[f"{name}: multiplicities"] == multiplicities
         triangles, open_edges, volume = numbers[f"{name}: triangles, open edges, volume"]
         assert triangles > 0 and (open_edges == 0) == (not multiplicities)
-        # The volume is between those of the subdivided icosahedron and of the ball. The mesh "three pages" encloses
-        # no volume.
+        # Only the mesh "inside out" has a negative volume. The mesh "three pages" encloses no
+        # volume.
         assert (volume < 0) == (name == "inside out") or abs(volume) < 1e-12
+    # The volume is between the volumes of the subdivided icosahedron and of the ball.
     ball = -numbers["inside out: triangles, open edges, volume"][2]
     assert 3.9 < ball < 4.18879 + 1e-9
     assert abs(numbers["three pages: triangles, open edges, volume"][2]) <= 1e-12

@@ -66,7 +66,7 @@ TEST(Conversion, WhatIsNoSurfaceIsNamed)
   EXPECT_NE(to_surface(bad, surface).message.find("vertex 7"), std::string::npos);
 }
 
-/// VTK reads beyond the end of the ids if the offsets are wrong, without a check.
+/// VTK does not check the offsets. With wrong offsets it would read beyond the end of the ids.
 TEST(Conversion, OffsetsThatAreNotValidAreRefused)
 {
   const TriangleMesh cube = test::cube();

@@ -1,5 +1,5 @@
 // vtkFullARAP (full as-rigid-as-possible deformation) needs no weights, binds once for many poses,
-// and finds regions by their labels. Its errors name the cause.
+// and finds regions by their labels. Error messages name the cause.
 #include "vtkFullARAP.h"
 
 #include "TestFilter.h"

@@ -341,7 +341,7 @@ TEST_F(MeshFiles, PointsThatAreNotFiniteAreNotWritten)
     const std::string path = this->Folder / "bad.vtp";
     EXPECT_THAT(this->Write(surface, path), HasSubstr("coordinate y of point 6 is not finite"));
     EXPECT_FALSE(std::filesystem::exists(path));
-    // A point that no cell uses can come from the input.
+    // A point that no cell uses may have coordinates that are not finite. Such a point is written.
     const vtkIdType unused = surface->GetPoints()->InsertNextPoint(bad, 0.0, 0.0);
     surface->GetPoints()->SetPoint(6, 0.0, 0.0, 0.0);
     EXPECT_EQ(this->Write(surface, path), "");

@@ -35,7 +35,7 @@ bool check_record(std::string_view input)
     EXPECT_EQ(data, nullptr);
     return false;
   }
-  constexpr vtkIdType maximum_cells = 10000; // an image without arrays may have any number
+  constexpr vtkIdType maximum_cells = 10000; // images without arrays can have any number of cells
   const vtkIdType cells = std::min(data->GetNumberOfCells(), maximum_cells);
   for (vtkIdType cell = 0; cell < cells; ++cell)
   {

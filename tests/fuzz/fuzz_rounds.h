@@ -14,7 +14,7 @@ namespace bindpose::test
 /// Run a target on damaged copies of the files of its corpus.
 inline void fuzz_target(const FuzzTarget& target)
 {
-  constexpr Index memory_limit = 256; // MiB; the files have a few KiB
+  constexpr Index memory_limit = 256; // in MiB; a file has only a few KiB
   const std::vector<FuzzSeed> corpus = fuzz_corpus(target);
   ASSERT_FALSE(corpus.empty());
   const MemoryLimit limit(memory_limit);

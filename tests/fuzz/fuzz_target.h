@@ -1,9 +1,9 @@
 #ifndef bindpose_tests_fuzz_fuzz_target_h
 #define bindpose_tests_fuzz_fuzz_target_h
 
-// Parsers and chains of stages that must accept any bytes. They are used by the tests FuzzCorpus
-// and FuzzFilterCorpus (the files of the corpus), by the tests FuzzReaders and FuzzFilters (damaged
-// copies of these files), and by bindpose_fuzz (libFuzzer).
+// Parsers and chains of stages that must accept any bytes. The tests FuzzCorpus and
+// FuzzFilterCorpus run them on the files of the corpus. The tests FuzzReaders and FuzzFilters run
+// them on damaged copies of these files. The program bindpose_fuzz runs them with libFuzzer.
 
 #include "geometry/mesh.h"
 
@@ -16,7 +16,7 @@ namespace bindpose::test
 
 struct FuzzTarget
 {
-  const char* name; ///< also the folder of its files in tests/fuzz/corpus
+  const char* name; ///< name of the target, and of its folder in tests/fuzz/corpus
   /// Use the input, and check the result with GoogleTest's expectations. Return false if the input
   /// was refused with an error message.
   bool (*check)(std::string_view input);

@@ -8,8 +8,9 @@
 namespace bindpose::test
 {
 
-/// Apply one to four random changes to a file. Bits and bytes are changed, lines are moved,
-/// numbers in text or binary form are replaced by other, often extreme ones, and ends are cut off.
+/// Apply one to four random changes to a file. Possible changes: bits and bytes are changed,
+/// inserted or erased; lines are erased, copied or swapped; numbers in text or binary form are
+/// replaced by other numbers, which are often extreme; the end of the file is cut off.
 std::string damaged_file(Random& random, std::string text);
 
 } // namespace bindpose::test

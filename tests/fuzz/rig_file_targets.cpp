@@ -188,8 +188,8 @@ std::string without_surrounding_blanks(const std::string& text)
                                     : text.substr(begin, text.find_last_not_of(' ') + 1 - begin);
 }
 
-/// Expect that a skeleton with these names has them after it is written and read, except for
-/// surrounding blanks.
+/// Expect that a skeleton has the same names after it is written and read, except for blanks around
+/// the names.
 void expect_names_of_skeleton(const Handles& handles)
 {
   Tgf graph;

@@ -6,9 +6,9 @@
 namespace bindpose::test
 {
 
-/// Read an OFF file of at most 64 triangles, spread three points over the surface, compute its
-/// weights in the embedding, and pose it by skinning. If all stages accept the surface, expect
-/// weights from 0 to 1, an exact rest pose and finite posed points.
+/// Read an OFF file of at most 64 triangles, place three point handles on the surface, compute
+/// their weights in the embedding, and pose the surface by skinning. If all stages accept the
+/// surface, expect weights from 0 to 1, an exact rest pose and finite posed points.
 bool check_shape(std::string_view input);
 
 } // namespace bindpose::test

@@ -17,7 +17,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLImageDataReader
 
 FAST_ERROR = 1e-3  # default tolerance of the method Fast of winding numbers
-# PrintSelf also prints these lines about the last run, which are not parameters.
+# PrintSelf also prints these lines. They describe the last run and are not parameters.
 NO_PARAMETER = {"Status", "StatusMessage", "Report"}
 # Properties whose defaults in ParaView differ from those of the C++ class on purpose. Overwrite is on, because
 # ParaView's file dialog has already asked about overwriting. Domain is "auto", which works for any surface; in C++ the

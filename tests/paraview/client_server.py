@@ -22,7 +22,7 @@ import numpy as np
 RANKS = 2
 CLIENT_LIMIT = 300  # time limits in seconds
 SERVER_LIMIT = 600
-END_LIMIT = 60  # from the end of a client or server until the other one must have ended
+END_LIMIT = 60  # limit for the server to end after its client, or vice versa
 READY, LOST, UNNOTICED = "ready for the end of the server", "connection lost:", "the lost connection was not noticed"
 
 
@@ -108,7 +108,7 @@ def abandoned(port, plugin, mesh):
             pose.PoseJSON = pose_text(name, degrees)
             data = fetch(posed)
             noticed = "no data" if data is None else "" if connection.Session.GetIsAlive() else "the session is not alive"
-        except Exception as error:  # any exception is a message
+        except Exception as error:  # any exception reports the lost connection
             noticed = f"{type(error).__name__}: {error}"
         if noticed:
             break

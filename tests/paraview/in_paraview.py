@@ -172,7 +172,8 @@ def deformation():
     assert vtk_to_numpy(colors.GetArray("Color")).shape == (len(rest), 3) and colors.GetArray("OutOfGamut").GetRange() == (0, 0)
     assert fetch(DepthOrder(Input=bound, Handles=handles)).GetPointData().GetArray("Depth").GetRange() == (0, 0)
     moved = np.linalg.norm(points_of(fetch(posed["SkinningDeformation"])) - rest, axis=1)
-    # The largest displacement is that of the vertex at the handle. The smallest is that of a distant vertex.
+    # The vertex at the handle has the largest displacement. A distant vertex has the smallest
+    # displacement.
     assert abs(moved.max() - 0.1) < 1e-12 and moved.min() < 0.05
     return numbers, bound, posed_handles
 

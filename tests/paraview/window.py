@@ -240,7 +240,7 @@ def check_placing(open_window, folder):
         lines = window.ask("placed_text()").splitlines()
         points = [[float(word) for word in line.split()[1:4]] for line in lines[:lines.index("#")]]
         assert len(points) == 2, lines
-        # The middle of the shape: its front and back sides have opposite z.
+        # The front and back sides of the shape have opposite z, so the middle is at z = 0.
         assert np.allclose(points, [[0, 0.84, 0], [0, 0.2, 0]], atol=0.05), points
         window.keys("Escape")
         window.drag(window.ask("pixel([0, 0.2, 0])"), (0, -40))

@@ -96,8 +96,8 @@ def test_a_curve_has_two_colors():
     assert (labels == 1).sum() == 3 and (labels == 2).sum() == 3
     assert values[labels == 1] == pytest.approx(np.array([[1, 0, 0]] * 3), abs=1e-12)
     assert values[labels == 2] == pytest.approx(np.array([[0, 0, 1]] * 3), abs=1e-12)
-    # The upper part gets the color of the left side, the lower part that of the right side. No color leaks through the
-    # curve.
+    # The upper part gets the color of the left side, and the lower part gets the color of the right
+    # side. No color leaks through the curve.
     centers = points_of(painted)[triangles_of(painted)].mean(axis=1)
     red = values[triangles_of(painted)][:, :, 0].mean(axis=1)
     near = (np.abs(centers[:, 1] - 0.5) < 0.1) & (np.abs(centers[:, 0] - 0.5) < 0.15)

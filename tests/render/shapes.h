@@ -17,7 +17,7 @@ namespace bindpose::test
 /// Return a smooth and a sharp shape: a sphere of radius 1 and, next to it, a cube of side 1.6.
 vtkSmartPointer<vtkPolyData> sphere_and_cube();
 /// Return a bent finger along x in [-2, 2], with the array Weights for two handles. For s = (x + 2)
-/// / 4, the weight of "left" is 1 - s and that of "right" is s.
+/// / 4, the weight of "left" is 1 - s, and the weight of "right" is s.
 vtkSmartPointer<vtkPolyData> finger();
 double right_weight(const Vec3& p);
 /// Return 100 x 56 x 40 samples of the winding number of three spheres. Two spheres overlap, and

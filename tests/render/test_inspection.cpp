@@ -110,7 +110,8 @@ TEST(Render, handles_of_surface)
   PictureOptions options = small_picture();
   options.color_by = ColorBy::handle;
   const Drawing drawing = draw({ { finger(), nullptr, "" } }, options);
-  // The left half has the color of the first handle, the right half that of the second one.
+  // The left half has the color of the first handle, the right half has the color of the second
+  // handle.
   const std::vector<Category> handles = handle_categories({ "left", "right" });
   for (const double x : { -1.7, -0.9, -0.2, 0.2, 0.9, 1.7 })
   {

@@ -26,7 +26,7 @@ inline Affine affine(const Eigen::Matrix3d& linear, const Vec3& translation)
   return t;
 }
 
-/// Return the map that rotates about the origin and then moves.
+/// Return the map that rotates about the origin and then translates by `move`.
 inline Affine rigid(double degrees, const Vec3& axis, const Vec3& move)
 {
   return affine(rotation(degrees, axis), move);

@@ -182,8 +182,9 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         for millions in options.millions:
             folder = pathlib.Path(scratch) / str(millions)
-            # Create the surfaces in a separate process, so that this process stays small. The process of a verb is
-            # forked from this process, so its measured peak memory is never below the memory of this process.
+            # Create the surfaces in a separate process to keep the memory of this process small.
+            # The process of each verb is forked from this process. The measured peak memory of a
+            # verb is therefore at least the memory of this process.
             subprocess.run([sys.executable, HERE / "scale_surfaces.py", folder, str(millions)], check=True)
             for shape in options.shape:
                 rows += measure(options, f"{shape}, {millions} M", folder / f"{shape}.ply", folder)

@@ -187,7 +187,8 @@ def oriented(points, triangles):
     edge = edge.reshape(-1)
     paired = np.flatnonzero(uses[edge] == 2)
     paired = paired[np.argsort(edge[paired], kind="stable")].reshape(-1, 2)
-    # Item k is triangle k as it is; item count + k is triangle k turned. Items that agree are in one group.
+    # Item k is triangle k with its own orientation. Item count + k is triangle k with reversed
+    # orientation. Items with consistent orientations are in one group.
     groups = Groups(2 * count)
     for one, other in paired:
         shift = count if forward[one] == forward[other] else 0

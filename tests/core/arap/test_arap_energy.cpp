@@ -202,9 +202,9 @@ TEST(ArapEnergy, ElementsTakeTheLabelOfMostVertices)
   tets << 0, 1, 2, 3, 2, 3, 4, 5, 4, 5, 6, 7;
   const RotationGroups groups =
     rotation_groups(ArapEnergy::elements, tets, 4, { 3, 3, 1, 3, 1, 0, 0, 0 });
-  // The vertices of the three elements have the labels 3 3 1 3, 1 3 1 0 and 1 0 0 0, so the
-  // elements take the labels 3, 1 and 0. Groups are numbered in the order of their first
-  // appearance.
+  // Each element takes the most frequent label of its vertices. The vertices of the three elements
+  // have the labels 3 3 1 3, 1 3 1 0 and 1 0 0 0, so the elements take the labels 3, 1 and 0.
+  // Groups are numbered in the order of their first appearance.
   EXPECT_EQ(groups.group_of_element, (std::vector<Index>{ 0, 1, 2 }));
   EXPECT_EQ(groups.count, 3);
   // A vertex takes the group of most of its elements, and the lowest group if two are equally

@@ -264,7 +264,7 @@ TEST(FullArapRobustness, WhatNothingHoldsStays)
     EXPECT_LT((arap.posed() - two.points).cwiseAbs().maxCoeff(), 1e-12);
     // Pose the handles, then return them to rest. Two points do not determine the rotation around
     // the line between them. The initial guess takes this rotation from the transforms of the
-    // points.
+    // handles.
     arap.discard_rotations();
     Pose pose = posed(handles, HandleMode::full, rigid(90, Vec3(0, 0, 1), Vec3(1, 1, 1)));
     ASSERT_TRUE(arap.solve(context, pose).ok());

@@ -312,8 +312,8 @@ TEST(ReducedArapRobustness, TheOrderOfHandlesDoesNotMatter)
     a.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles, options).ok());
   ASSERT_TRUE(
     b.bind(context, rig.mesh.points, rig.mesh.tets, other.weights, other.handles, options).ok());
-  // Before convergence, extrapolation amplifies round-off. These iterations are therefore not
-  // accelerated.
+  // Before convergence, the extrapolation of Anderson acceleration amplifies round-off. These
+  // iterations are therefore not accelerated.
   ASSERT_TRUE(a.solve(context, pose, iterations_from_rest(30)).ok());
   ASSERT_TRUE(b.solve(context, permuted, iterations_from_rest(30)).ok());
   Points first, second;

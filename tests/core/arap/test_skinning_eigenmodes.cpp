@@ -150,7 +150,8 @@ TEST(SkinningEigenmodes, NothingFreeGivesNoModesAndCancelEnds)
     StatusCode::canceled);
 }
 
-// Eigenmodes as extra weights keep the rest shape and lower the energy, as spline bumps do.
+// Extra weights that are eigenmodes keep the rest shape and lower the energy. The same is true
+// for spline bumps.
 TEST(SkinningEigenmodes, AsExtraWeightsTheyRestAtZeroAndLowerTheEnergy)
 {
   const Status bound = expect_that_extra_weights_help(ExtraWeights::eigenmodes);

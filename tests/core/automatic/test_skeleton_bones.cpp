@@ -221,8 +221,9 @@ TEST(SkeletonBones, AreWithinTheToleranceOfTheCurve)
 
 TEST(SkeletonBones, StayWithinTheShape)
 {
-  // The curve has a corner of height 0.1, which is below the tolerance. One straight bone would
-  // leave the shape, which is a narrow band around the curve.
+  // The curve has a corner at the height 0.1, which is less than the tolerance 0.2. Without a
+  // shape, one straight bone is therefore enough. The shape is a narrow band around the curve. One
+  // straight bone would leave this band, so two bones are needed.
   Drawing drawing;
   drawing.centroids = { Vec3::Zero() };
   drawing.line(drawing.line(drawing.point(Vec3::Zero()), Vec3(1.0, 0.1, 0.0)), Vec3(2.0, 0.0, 0.0));
@@ -338,7 +339,7 @@ TEST(SkeletonBones, JunctionsWithinTheThicknessAreOne)
     EXPECT_LT(bone.head.norm(), 1e-15);
   }
   SkeletonBonesOptions options;
-  // The branch points are not merged: 0.3 times the radius is 0.03, and their distance is 0.04.
+  // The branch points are not merged, because their distance 0.04 exceeds 0.3 times the radius 0.1.
   options.prune = 0.3;
   EXPECT_EQ(run_skeleton_bones(drawing, options).junctions, 2);
 }
@@ -377,8 +378,8 @@ TEST(SkeletonBones, ARingIsCutOnceOppositeItsRoot)
   // The bones form one tree, so there is one more joint than there are bones.
   EXPECT_EQ(bones.joints.rows(), static_cast<Index>(bones.handles.size()) + 1);
   EXPECT_EQ(bones.junctions, 0);
-  // The loop is cut near the point (-1, 0, 0). Two bones end there, at most the length of one
-  // segment away from the point.
+  // The loop is cut near the point (-1, 0, 0). Two bones end near this point, at a distance of at
+  // most one segment length.
   int ends = 0;
   for (const Handle& bone : bones.handles)
   {

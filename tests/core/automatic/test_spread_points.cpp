@@ -199,7 +199,7 @@ TEST(SpreadPoints, LieInTheMiddleOfTheShape)
   double least = infinite, most = -infinite;
   for (Index i = 0; i < 6; ++i)
   {
-    // The points are near the axis. The error is at most the last step of their motion.
+    // A point moves along its normal, so it stops near the axis but not exactly on the axis.
     EXPECT_NEAR(points.positions(i, 1), 0.5, 0.15) << i;
     EXPECT_NEAR(points.positions(i, 2), 0.5, 0.15) << i;
     least = std::min(least, points.positions(i, 0));

@@ -300,8 +300,8 @@ TEST(EmbeddingTets, TopologyIsTheSurfaces)
   EXPECT_EQ(test::euler_characteristic(embed_mesh(torus).mesh), 0);
   const TriangleMesh shell = test::join(test::sphere(3), test::flipped(test::sphere(3, 0.5)));
   EXPECT_EQ(test::euler_characteristic(embed_mesh(shell).mesh), 2) << "a ball with a cavity";
-  // The tube of this torus has diameter 0.4: about three lattice cubes, or less than one. The tets
-  // must still have the topology of a ring.
+  // The tube of this torus has the diameter 0.4. At resolution 20 this is about three lattice
+  // cubes, at resolution 5 less than one cube. The tets must always have the topology of a ring.
   const TriangleMesh ring = test::torus(48, 24, 1.0, 0.2);
   for (const Index resolution : { 20, 5 })
   {
@@ -311,8 +311,8 @@ TEST(EmbeddingTets, TopologyIsTheSurfaces)
 
 TEST(EmbeddingTets, OpenBoxAboveAPlateIsSeparate)
 {
-  // The box has no bottom. The winding number in it is above 0.5, and decreases to less than 0.5
-  // between its opening and the plate.
+  // The box has no bottom. The winding number is above 0.5 inside the box. It decreases to less
+  // than 0.5 between the opening of the box and the plate.
   const TriangleMesh plate = box({ -3.3, -7.6, 0.0 }, { 3.3, 7.6, 0.2 });
   const TriangleMesh closed = box({ 3.0, -0.2, 0.3 }, { 3.25, 1.3, 0.6 });
   TriangleMesh open = closed;
@@ -354,7 +354,7 @@ TEST(EmbeddingTets, BarsThatAreNearShareNoVertex)
     {
       EXPECT_EQ(of_lower.count(v), 0u);
     }
-    // The inside volume is that of the two bars, up to 3 %.
+    // The volume of the inside equals the volume of the two bars, with a tolerance of 3 %.
     const Eigen::VectorXd volumes = tet_volumes(result.mesh.points, result.mesh.tets);
     EXPECT_NEAR(volumes.dot(result.inside_fractions), 2.0 * 4.0 * 0.4 * 0.5, 0.03 * 1.6);
   }

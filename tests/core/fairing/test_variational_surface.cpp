@@ -136,9 +136,9 @@ TEST(VariationalSurface, AMotionOfAllThatIsHeldMovesAll)
   struct Case
   {
     bool bent, fair;
-    // Angle of the rotation in radians. If displacements are smoothed (`fair` is false) on a bent
-    // mesh, the angle must be 0. The displacements of a rotation are linear in the positions, so
-    // they are only as smooth as the mesh.
+    // Angle of the rotation in radians. If `fair` is false, displacements are smoothed. The
+    // displacements of a rotation are linear in the positions. On a bent mesh, smoothing would
+    // therefore change these displacements, so the angle must be 0.
     double angle;
   };
   for (const Case& c :
@@ -250,8 +250,8 @@ TEST(VariationalSurface, AFlatPatchFairedOnItsOwnPlaneIsItself)
 
 TEST(VariationalSurface, TangentsGivenAreThoseThatTheSurroundingsHave)
 {
-  // Fair the flat square. The tangents at the border, the normal derivatives dx/dn of the positions
-  // x, are computed from the surroundings, which are flat too.
+  // Fair the flat square. The normal derivatives dx/dn of the positions x define the tangents at
+  // the border. These derivatives are computed from the surroundings, which are flat too.
   Bump bump;
   bump.handles.clear();
   bump.pose.clear();

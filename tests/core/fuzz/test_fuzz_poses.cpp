@@ -60,8 +60,8 @@ Affine transform(Random& random, double exponent)
   return t;
 }
 
-/// Turn some handles into bones. Some bones have the same tail. Other tails are vertices or are
-/// anywhere inside or outside of the shape, and some bones are very short.
+/// Turn some handles into bones. Some bones have the same tail. Other tails are at random vertices
+/// or at random points inside or outside of the shape. Some bones are very short.
 void make_bones(Random& random, const TetMesh& mesh, Handles& handles)
 {
   const Box box = bounding_box(mesh.points);
@@ -92,7 +92,8 @@ void make_bones(Random& random, const TetMesh& mesh, Handles& handles)
       [&](const Handle& other) { return other.head == handle.tail && other.tail == handle.head; });
     if (twice)
     {
-      // The bone has length zero, or another bone connects the same points in reverse.
+      // Move the tail, because the bone has length zero, or because another bone connects the same
+      // two points in the opposite direction.
       handle.tail += Vec3(0.1, 0.2, 0.3);
     }
   }

@@ -365,8 +365,8 @@ void expect_volume(test::Random& random, const TriangleMesh& surface,
     });
   if (!changed)
   {
-    // `expected` is an estimate from samples, and `winding` may be one, too. The tolerance exceeds
-    // six standard deviations of the difference between these two volumes.
+    // The volume `expected` is an estimate from samples. The volume `winding` may also be an
+    // estimate. The tolerance exceeds six standard deviations of the difference of these volumes.
     constexpr Index samples = 2000;
     const double expected = sampled_volume(random, surface, options.winding_threshold, samples);
     EXPECT_NEAR(winding, expected, 0.1 * box);

@@ -365,8 +365,8 @@ TEST(FuzzWinding, CellsOfLargeClosedSurfaces)
             << largest << " triangles\n";
 }
 
-// The surface is made of cubes of a lattice. The winding number is known at the centers of cubes,
-// walls and edges, and at corners.
+// The surface is made of cubes of a lattice. The winding number is known at the corners of cubes,
+// and at the centers of cubes, faces and edges.
 TEST(FuzzWinding, CubesHoldTheirMiddles)
 {
   Index queries = 0;
@@ -386,7 +386,7 @@ TEST(FuzzWinding, CubesHoldTheirMiddles)
         return Vec3(static_cast<double>(i % n), static_cast<double>(i / n % n),
           static_cast<double>(i / n / n));
       };
-      // The wall between two adjacent cubes occurs twice, with opposite orientations.
+      // The face between two adjacent cubes occurs twice, with opposite orientations.
       const TriangleMesh one = cube(0.0, 1.0);
       const auto count = static_cast<Index>(std::count(filled.begin(), filled.end(), 1));
       mesh.points.resize(8 * count, 3);
@@ -419,8 +419,8 @@ TEST(FuzzWinding, CubesHoldTheirMiddles)
       };
       for (Index i = 0; i < grid.count(); ++i)
       {
-        // A sample at the center of a cube, wall or edge, or at a corner, has 1, 2, 4 or 8 adjacent
-        // cells.
+        // A sample at the center of a cube has 1 adjacent cell, at the center of a face 2, at the
+        // center of an edge 4, and at a corner 8.
         const std::array<Index, 3> place{ i % grid.size(0), i / grid.size(0) % grid.size(1),
           i / grid.size(0) / grid.size(1) };
         double expected = 0.0;

@@ -388,7 +388,7 @@ TEST(GltfSkin, AnAnimationOfShapes)
   ASSERT_EQ(read.warnings.size(), 1u);
   EXPECT_THAT(read.warnings[0], HasSubstr("does not keep 1 animation and 3 morph targets"));
   EXPECT_TRUE(reread.frames.empty());
-  // A mesh without joints may also have an animation of morph targets.
+  // An animation of morph targets does not need joints.
   skin.joints.clear();
   skin.weights.resize(0, 0);
   EXPECT_TRUE(write_gltf_skin(folder / "mesh.glb", skin, options).ok());

@@ -337,8 +337,8 @@ TEST_F(RealHelper, WhatCrashesTetgenIsAStatus)
   EXPECT_THAT(run_real({ "dance" }, mesh, answer).message, HasSubstr("unknown job"));
 }
 
-// The work of TetGen, not its time, decides when it is stopped. So the result does not depend on
-// the speed of the machine.
+// TetGen is stopped after a given amount of work, not after a given time. The result therefore does
+// not depend on the speed of the machine.
 TEST_F(RealHelper, WorkLimitStopsTetgen)
 {
   const TriangleMesh mesh = test::sphere(3);

@@ -91,8 +91,8 @@ TEST(InnerPoints, AreNotManyMoreThanAskedFor)
 
 TEST(InnerPoints, EvenGridsGiveSomePointsAndNotTooMany)
 {
-  // The requested length is the same at all points of the surface. If it decreases, all cells at
-  // the surface are subdivided at once, so the number of points changes abruptly.
+  // The requested length is the same at all points of the surface. If this length decreases, all
+  // cells at the surface are subdivided at once. The number of points then changes abruptly.
   for (const double height : { 1.0, 0.2, 0.05 })
   {
     const TetMesh box = test::tet_box(20, 20, 4, Vec3::Zero(), Vec3(1.0, 1.0, height));

@@ -1,4 +1,4 @@
-// The limit of levels in JSON texts.
+// The limit on the nesting depth of JSON texts.
 #include "io/json_depth.h"
 
 #include <gmock/gmock.h>

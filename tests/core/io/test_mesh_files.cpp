@@ -219,7 +219,7 @@ TEST_F(TextFiles, ObjCornersIdsAndErrors)
     "");
   EXPECT_EQ(this->mesh.corners, (std::vector<Index>{ 0, 1, 2, 0, 2, 3 }));
   EXPECT_EQ(this->mesh.points.rows(), 4);
-  // A byte order mark, and lines that continue after a backslash.
+  // The text begins with a byte order mark, and a backslash continues a face on the next line.
   ASSERT_EQ(read("\xef\xbb\xbfv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
                  "f 1/1 \\\r\n 2/2\\\n3/3 4/4\nf 1 2 3\n"),
     "");
@@ -307,7 +307,7 @@ TEST_F(TextFiles, StlIsWeldedAndSizedExactly)
   ASSERT_EQ(read_stl(this->folder.write("a.stl", text), this->mesh).message, "");
   EXPECT_EQ(this->mesh.corners, (std::vector<Index>{ 0, 1, 2, 1, 3, 2 }));
   EXPECT_EQ(this->mesh.points(3, 2), 0.1);
-  // Two solids, upper case, and lines that end with CR.
+  // The text has two solids, upper-case letters, and lines that end with CR.
   std::string other = text + "solid vertex 1 2 3\nendsolid\n";
   std::transform(other.begin(), other.end(), other.begin(),
     [](unsigned char c) { return static_cast<char>(c == '\n' ? '\r' : std::toupper(c)); });

@@ -76,7 +76,7 @@ TEST(TgfTexts, AreReadBackWithoutAFile)
   EXPECT_EQ(graph.nodes[3].line, 4);
   EXPECT_EQ(graph.edges[0].line, 6);
   EXPECT_EQ(format_tgf(graph), text);
-  // Nodes are numbered anew. A text may have the line ends of Windows, and no last line end.
+  // The writer renumbers the nodes. The parser accepts line ends CR LF and a missing last line end.
   ASSERT_TRUE(parse_tgf("7 0 0 0\r\n-3 1 0 0 tip\r\n#\r\n7 -3", graph).ok());
   EXPECT_EQ(graph.nodes[1].text, "tip");
   EXPECT_EQ(format_tgf(graph), "1 0 0 0\n2 1 0 0 tip\n#\n1 2 1 0 0\n");

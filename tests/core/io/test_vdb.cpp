@@ -239,8 +239,8 @@ TEST_F(Vdb, TheBackgroundMayBeTheInside)
   this->options.overwrite = true;
   ASSERT_TRUE(this->write(field).ok());
   grid = this->read();
-  // The background marks one side of the threshold. Voxels on the other side that are outside of
-  // the band have the value 1 - background.
+  // Outside of the band, voxels on the same side of the threshold as the background have the
+  // background value 1. Voxels on the other side have the value 2 * threshold - background = 0.
   EXPECT_EQ(grid->tree().getValue(coord(2, 4, 31)), 0.0f);
   EXPECT_EQ(grid->tree().getValue(coord(-21, -5, 3)), 1.0f);
   EXPECT_FALSE(grid->tree().isValueOn(coord(2, 4, 31)));

@@ -83,7 +83,7 @@ protected:
 
 TEST_F(RefinedSolve, IsAsGoodAsADenseFactorization)
 {
-  // Scale this column down, because the norms below would overflow when they square its entries.
+  // Scale this column down. Otherwise the squares of its entries would overflow in the norms below.
   this->rhs.col(3) *= 1e-100;
   Eigen::MatrixXd x;
   EXPECT_LE(this->solve({}, x), 1e-14);

@@ -1,6 +1,6 @@
 // Both backends of the sparse solver, compared with a dense factorization. Clones that run
-// concurrently give equal bits. One analysis is used for many factorizations. A failure reports the
-// matrix entry of the pivot.
+// concurrently give equal bits. One analysis is used for many factorizations. If a pivot is not
+// positive, the error message contains the index of its unknown.
 #include "linear/sparse_solver.h"
 
 #include "core/linear/definite_matrix.h"

@@ -1,7 +1,7 @@
 // Quadratic programs with order constraints on pairs of vertices, solved by the augmented
-// Lagrangian method. The interior-point method in double precision must give the same weights. It
-// replaces the augmented Lagrangian method if single precision is unavailable. The multipliers and
-// the certificate must prove that each result is optimal.
+// Lagrangian method. The interior-point method, which is used if single precision is unavailable,
+// must give the same weights in double precision. The multipliers and the certificate must prove
+// that each result is optimal.
 #include "qp/augmented_lagrangian.h"
 
 #include "geometry/laplacian.h"

@@ -1,7 +1,7 @@
 // Quadratic programs with bounds, solved by an interior-point method. The solutions are compared
-// with projected Gauss-Seidel. The optimality certificate (duality gap and residual) is compared
-// with its definition, and must be the stopping criterion. Results must not depend on the start,
-// and their bits must not depend on the number of threads.
+// with projected Gauss-Seidel. The duality gap of the optimality certificate must bound the true
+// gap, and the residual of the certificate must be within the tolerance. Results must not depend on
+// the start, and their bits must not depend on the number of threads.
 #include "qp/box_qp.h"
 
 #include "base/memory.h"
@@ -411,7 +411,7 @@ TEST(BoxQp, ThreadsDoNotChangeABit)
     const std::vector<BoxQpSolution> solutions = qp.solve_all(context, columns);
     EXPECT_EQ(qp.analyses(), 1);
     // Expect one factorization of Q and the factorizations that the columns report. With CHOLMOD,
-    // expect one more: it serves to compute the initial values of all columns.
+    // expect one more factorization, which provides the initial values of all columns.
     Index factorizations = SparseSolver::has_cholmod() ? 2 : 1;
     for (const BoxQpSolution& solution : solutions)
     {

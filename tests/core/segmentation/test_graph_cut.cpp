@@ -101,7 +101,7 @@ TEST(GraphCut, WithoutEdgesEveryNodeTakesItsCheaperSide)
   energy.outside_costs = { 1.0, 0.0, 0.5, 0.6 };
   std::vector<char> inside;
   ASSERT_TRUE(minimized(energy, inside).ok());
-  EXPECT_EQ(inside, (std::vector<char>{ 1, 0, 0, 1 })); // node 2 has equal costs: outside
+  EXPECT_EQ(inside, (std::vector<char>{ 1, 0, 0, 1 })); // equal costs: node 2 is outside
 }
 
 TEST(GraphCut, ScaleDoesNotMatter)

@@ -531,7 +531,7 @@ TEST(StretchableBones, WholeTurnsAndLanesWithoutWeightChangeNothing)
     weights(v, v % 2) = 0.0;
   }
   std::vector<BoneChange> bones(2, unit_bone);
-  bones[0].twist = { 720.0, -1080.0 }; // three turns at points with endpoint weight 1
+  bones[0].twist = { 720.0, -1080.0 }; // three full turns, because all endpoint weights are 1
   bones[1].twist = { 0.0, 90.0 };
   for (const bool single : { false, true })
   {

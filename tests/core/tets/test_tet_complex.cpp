@@ -94,7 +94,7 @@ TEST(TetComplex, SignOfQualityIsTheExactOrientation)
   int negative = 0;
   for (int i = 0; i < 2000; ++i)
   {
-    // Points in a plane, and on a line, up to rounding.
+    // The points are in a plane or on a line, up to rounding.
     const Vec3 p = vector(), u = vector(), v = i % 2 ? vector() : Vec3::Zero();
     const auto point = [&]() -> Vec3 { return p + uniform(random) * u + uniform(random) * v; };
     const Vec3 q = point(), r = point(), s = point();

@@ -400,7 +400,7 @@ TEST(MonotoneSmoothing, UnitsDoNotMatter)
     kind = static_cast<signed char>(-kind);
   }
   EXPECT_LE((smooth(domain, upside_down, turned).values + plain).cwiseAbs().maxCoeff(),
-    2e-2 * range); // vertices with equal values are ordered by id, even if f is negated
+    2e-2 * range); // the results differ: f and -f both order equal values by vertex id
   Domain moved = domain;
   const Eigen::Matrix3d rotation =
     Eigen::AngleAxisd(0.7, Vec3(1.0, 2.0, -0.5).normalized()).toRotationMatrix();

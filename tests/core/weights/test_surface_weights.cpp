@@ -146,8 +146,8 @@ TEST(SurfaceWeights, NoneIsAlmostZero)
     solve_surface_weights(mesh, three_along(), options_for(WeightsDomain::embedding), result);
   ASSERT_TRUE(status.ok()) << status.message;
   const Index zeros = (result.weights.array() == 0.0).count();
-  // Weights below 1e-12 are set to zero. Other weights may be a little smaller than 1e-12, because
-  // rows are then divided by their sums.
+  // Weights below 1e-12 are set to zero. Then the rows are divided by their sums, so the remaining
+  // weights may be a little smaller than 1e-12.
   const Index almost_zeros = (result.weights.array() < 5e-13).count() - zeros;
   EXPECT_GT(zeros, 0);
   EXPECT_EQ(almost_zeros, 0);
@@ -531,7 +531,7 @@ TEST(SurfaceWeights, RawOnesAreCarriedOnlyWhenAskedForAndChangeNothing)
   EXPECT_EQ(with.weights, without.weights);
   ASSERT_EQ(with.raw.rows(), mesh.points.rows());
   ASSERT_EQ(with.raw.cols(), 3);
-  // Each column has its own bounds, so the sums of the rows are only approximately 1.
+  // Each column is solved separately within bounds, so rows sum to 1 only approximately.
   const Eigen::VectorXd sums = with.raw.rowwise().sum();
   EXPECT_GT((sums.array() - 1.0).abs().maxCoeff(), 1e-12);
   EXPECT_LT((sums.array() - 1.0).abs().maxCoeff(), 0.5);

@@ -401,8 +401,8 @@ TEST(WeightTerms, RigidSetsAreOneUnknown)
       }
     }
     gap += std::max(total * value, -total * (1.0 - value));
-    // The certificate uses the smaller of two gaps (certificate.h), of which this is the first one.
-    // This gap may therefore exceed the tolerance 1e-9.
+    // The certificate uses the smaller of two gaps (certificate.h). The test computes only the
+    // first gap, which may exceed the tolerance 1e-9.
     EXPECT_LE(gap / (0.5 * w.dot(g)), 5e-8);
   }
   // A rigid set may contain vertices of a part that has no handle. The set then connects this part

@@ -358,8 +358,8 @@ TEST(Weights, SliversOfAThousandthOfADegree)
   TetMesh box = test::tet_box(6, 6, 6);
   for (Index v = 0; v < box.points.rows(); ++v)
   {
-    // The middle layer is so close to the layer below it that the distance is 1e-5 of the height of
-    // a cell.
+    // Move the middle layer down. Its distance from the layer below is then 1e-5 times the height
+    // of a cell.
     box.points(v, 2) -= std::abs(box.points(v, 2) - 0.5) < 1e-9 ? (1.0 - 1e-5) / 6.0 : 0.0;
   }
   TriangleMesh square = test::grid(12, 12);

@@ -1,5 +1,5 @@
-// Reading by the helper executable bindpose-reader: datasets of all classes are unchanged, and a
-// helper that crashes, hangs or writes an invalid record gives one sentence.
+// Reading by the helper executable bindpose-reader: datasets of all classes are unchanged. If the
+// helper crashes, hangs or writes an invalid record, there is an error message of one sentence.
 #include "filters/data_of.h"
 
 #include "base/execution.h"

@@ -1,4 +1,5 @@
-// vtkPictureFileReader: pixels of all formats come back, damaged files give one sentence.
+// vtkPictureFileReader: pixels of lossless formats are read back unchanged, and those of JPEG up
+// to compression errors. A damaged file gives an error message of one sentence.
 #include "vtkPictureFileReader.h"
 
 #include "support/files.h"

@@ -1,6 +1,6 @@
 // Composite inputs: every filter works on them block by block. The output block equals, bit by bit,
 // the output for the input block alone. Composites that a filter does not support are refused with
-// one sentence.
+// an error message of one sentence.
 #include "filters/TestFilter.h"
 #include "filters/data_of.h"
 #include "filters/pipeline/same_data.h"

@@ -117,7 +117,7 @@ void Monkey::drag()
       this->press_random_key(); // press a key during the drag
     }
   }
-  if (this->pick(12) != 0) // otherwise the mouse button stays down for a while
+  if (this->pick(12) != 0) // with a probability of 1/12, the mouse button stays down
   {
     this->user_.release(from + offset, button, modifiers);
   }

@@ -221,8 +221,8 @@ TEST_F(ExportWindow, AFilmNeedsKeyFramesAndSaysSo)
   this->press("Show the timeline");
   EXPECT_TRUE(this->part<app::posing::KeyStrip>()->isVisible());
   EXPECT_EQ(this->bar_message(), QString());
-  // Two key frames are enough for the export of a film. The export of a pose file needs no other
-  // program.
+  // Two key frames are enough for the export of an animation. The export of a pose file needs no
+  // other program.
   EXPECT_EQ(this->user.press_key("K"), QString());
   this->user.scrub(0.25);
   this->bend();

@@ -542,7 +542,7 @@ TEST_F(HandleWindow, WhatCannotBePlacedIsOneSentence)
   const QPoint position = this->pixel(Vec3(0, 0, 0.5));
   this->click(position);
   const int steps = this->history()->count();
-  this->click(position); // click again at the same position
+  this->click(position); // a second point at this position is refused
   EXPECT_EQ(this->history()->count(), steps);
   EXPECT_TRUE(this->editing()->is_warning());
   EXPECT_TRUE(this->hint().contains("p1")) << this->hint().toStdString();

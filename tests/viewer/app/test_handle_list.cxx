@@ -383,7 +383,7 @@ TEST_F(HandleTreeWindow, TheSearchShowsMatchesBelowTheirParents)
 
 TEST_F(HandleTreeWindow, ALargeScreenShowsADozenRowsAndTheHeightCanBeDragged)
 {
-  // A desktop leaves this space for a window on a screen of 1920 x 1080 pixels.
+  // On a screen of 1920 x 1080 pixels, a desktop leaves this space for a window.
   this->resize(QSize(1920, 1040));
   EXPECT_GE(this->visible_names().size(), 12);
   this->resize(QSize(1280, 760));

@@ -584,7 +584,7 @@ TEST_F(Window, HandlesAreDraggedBesideAnOpenVolumeInThePanelPose)
   this->drag(1, { 80, 0 });
   EXPECT_GT((highest_point(this->window.shown()) - rest).norm(), 0.1);
   EXPECT_EQ(this->part<app::volume::VolumeView>()->position(), slice);
-  EXPECT_EQ(this->window.document()->history()->count(), 2); // open the volume, drag the handle
+  EXPECT_EQ(this->window.document()->history()->count(), 2); // steps: open volume, drag handle
 }
 
 TEST_F(Window, ALongErrorDoesNotWidenTheWindow)
@@ -657,7 +657,7 @@ int main(int argc, char** argv)
   testing::InitGoogleTest(&argc, argv);
   if (testing::GTEST_FLAG(list_tests))
   {
-    return RUN_ALL_TESTS(); // there may be no display when the build lists the tests
+    return RUN_ALL_TESTS(); // the build lists the tests, perhaps on a machine without a display
   }
   // The tests must not change the recent files and the backups of the user.
   const bindpose::test::Folder folder;

@@ -51,8 +51,8 @@ bool is_finite(vtkPolyData* data)
   return !data || to_points(data).view().allFinite();
 }
 
-/// Reset the transforms of free handles. They were found by the solver and are not the work of the
-/// user.
+/// Reset the transforms of free handles, because these transforms are results of the solver, not
+/// input of the user.
 Pose without_free_transforms(Pose pose)
 {
   for (HandlePose& each : pose)
@@ -194,7 +194,7 @@ TEST(Monkey, AWindowThatIsPlayedWithStaysSound)
     window.show();
     QApplication::setActiveWindow(&window);
     QApplication::processEvents();
-    if (seed % 4 != 0) // otherwise the window starts without a mesh
+    if (seed % 4 != 0) // every fourth window starts without a mesh
     {
       ASSERT_TRUE(window.open(data("figure_weights.vtp")));
       ASSERT_TRUE(window.open(data("figure.tgf")));

@@ -126,7 +126,7 @@ protected:
 
   /// Expect that the transparent picture, composited over plain colors, equals the opaque picture
   /// on such a background. The pictures must be equal at every pixel, including antialiased edges,
-  /// see-through objects and letters.
+  /// translucent objects and letters.
   void expect_correct_compositing(int scale)
   {
     const auto transparent_picture = this->take(scale, true);

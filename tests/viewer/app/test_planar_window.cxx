@@ -261,7 +261,7 @@ TEST_F(PlanarWindow, BesideEachOtherBothShapesHaveThePicture)
   EXPECT_GT(colored_pixels, 5000);
   // At rest both halves are equal; if the width is odd, one half is shifted by half a pixel.
   EXPECT_LT(differing_pixels, colored_pixels / 10);
-  // The shape of the compared method is drawn over the first shape, see-through and blue. It is
+  // The shape of the compared method is drawn over the first shape, in translucent blue. It is
   // visible wherever the two shapes differ.
   this->choose("pose.ghost", 0);
   const auto is_blue = [](const QColor& c) { return c.blue() > c.red() + 20; };

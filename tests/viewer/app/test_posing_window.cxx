@@ -739,7 +739,7 @@ TEST_F(PosingWindow, NoMethodIsComparedWithItself)
   ASSERT_EQ(user.choose("pose.compared", 2), QString());
   EXPECT_EQ(this->posing()->ghost()->display_mode(), app::posing::PoseGhost::in_colors);
   // If the method of the shape is also chosen as the compared method, nothing can be compared. A
-  // label says this.
+  // label asks for another method.
   user.press_key("2");
   ASSERT_EQ(this->window.document()->number("pose.method"), 1);
   EXPECT_EQ(this->posing()->ghost()->display_mode(), app::posing::PoseGhost::hidden);
@@ -1057,7 +1057,7 @@ TEST_F(PosingWindow, LayersSayWhatIsInFrontInAPlane)
   this->render();
   auto* fields = this->window.findChild<app::posing::HandleFields*>();
   EXPECT_TRUE(fields->layer()->isVisible());
-  // Viewed from the front, the color in the overlap is that of the half in front.
+  // Viewed from the front, the overlap shows the color of the half in front.
   vtkRenderer* renderer = this->part<app::view::Viewport>()->renderer();
   const auto is_right_in_front = [&]
   {
@@ -1210,8 +1210,8 @@ TEST_F(PosingWindow, AnimationsAreExportedAndReadBack)
   if (check_ffmpeg().ok())
   {
     EXPECT_GT(std::filesystem::file_size(write("bow.gif")), 1000U);
-    // A film is encoded in the background. The export can be canceled, and it does not change the
-    // shown shape.
+    // An animation is encoded in the background. The export can be canceled, and it does not change
+    // the shown shape.
     app::posing::SequenceExport* film = this->posing()->sequence_export();
     const std::string unwanted = folder / "unwanted.webm";
     int taken = 0;

@@ -1,5 +1,5 @@
-// Responsiveness and readability of the window: opening files renders the view once, no operation
-// blocks the window, and no text is clipped.
+// Responsiveness and readability of the window: opening files renders the view at most four times,
+// no operation blocks the window, and no text is clipped.
 #include "unclipped.h"
 #include "window_test.h"
 

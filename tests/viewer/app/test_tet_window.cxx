@@ -190,7 +190,8 @@ TEST_F(TetWindow, AChosenCutStaysForOtherTets)
   EXPECT_EQ(this->view()->plane()->orientation(), app::view::PlaneHandle::y_axis);
 }
 
-/// Otherwise redo would bring back a side that does not belong to the plane.
+/// A side of the cut that the user has chosen is kept when other tets are opened. If the program
+/// changed the side without an undo step, a redo of all steps would restore another side.
 TEST_F(TetWindow, AChosenSideOfTheCutStaysForOtherTets)
 {
   this->open(to_tet_grid(test::tet_box(3, 3, 3, Vec3(-1, -1, -0.5), Vec3(1, 1, 0.5))));
@@ -289,7 +290,7 @@ TEST_F(TetWindow, TheMouseDragsThePlane)
     EXPECT_EQ(this->view()->shown_count(),
       count_tets_behind(mesh, this->view()->plane()->origin(), Vec3::Unit(axis)));
   }
-  // At the lower end of the slider no tet remains, and a label says this.
+  // At the lower end of the slider, there are no tets on the shown side, and a label states this.
   this->row(0)->slider()->setValue(0);
   EXPECT_EQ(this->view()->shown_count(), 0);
   EXPECT_NE(this->find<QLabel>("There are no tets on this side."), nullptr);
@@ -363,7 +364,8 @@ TEST_F(TetWindow, ColorsAreThoseOfTheLegend)
   const QColor right = image.pixelColor(this->pixel(Vec3(0.66, 0.13, 1.0)));
   EXPECT_GT(left.blue(), left.red() + 20) << "outside: blue";
   EXPECT_GT(right.red(), right.blue() + 30) << "inside: orange";
-  // If the tets have no data for a coloring, an error says this, and the colors do not change.
+  // If the tets have no data for a coloring, an error message appears, and the colors do not
+  // change.
   const auto refused = [this](const char* item, const char* words)
   {
     this->choose(item);

@@ -288,7 +288,7 @@ TEST_F(VolumeWindow, ASurfaceAlongWithAVolumeIsSeeThrough)
   EXPECT_EQ(this->part<app::view::Viewport>()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
   this->open();
   EXPECT_LT(this->part<app::view::Viewport>()->surface_actor()->GetProperty()->GetOpacity(), 0.5);
-  // The surface is see-through: the orange of the slice behind it is visible. There is a text about
+  // The surface is translucent: the orange of the slice behind it is visible. There is a text about
   // the data under the mouse.
   const QColor seen = this->picture().pixelColor(this->pixel(Vec3(0.3, 0.1, 0)));
   EXPECT_GT(seen.red(), seen.blue() + 40);
@@ -310,7 +310,8 @@ TEST_F(VolumeWindow, ASurfaceAlongWithAVolumeIsSeeThrough)
   EXPECT_EQ(this->reading_at(Vec3(0.3, 0.1, 0)).left(8), "Triangle");
 }
 
-/// Winding numbers are those of the shape at rest, so the shape is not posed while they are shown.
+/// Winding numbers are computed for the shape at rest, so the shape is not posed while winding
+/// numbers are shown.
 TEST_F(VolumeWindow, NoSliceLiesInAPosedShape)
 {
   const TriangleMesh ball = test::sphere(3, 1.2);

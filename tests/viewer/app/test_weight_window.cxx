@@ -350,7 +350,7 @@ TEST_F(WeightWindow, ASliceThroughTheVolumeFollowsTheMouse)
   EXPECT_NEAR(this->view()->plane()->position(), 0.4, 0.1);
   EXPECT_NEAR(this->row()->value(), this->view()->plane()->position(), 0.01);
   check(2, this->view()->plane()->position());
-  // The slice is drawn without lighting, and the surface over it is see-through. The visible color
+  // The slice is drawn without lighting, and the surface over it is translucent. The visible color
   // of the slice is therefore close to the legend's color for the weight.
   const ColorMap map = weight_map();
   const double z = this->view()->plane()->position();
@@ -476,8 +476,8 @@ TEST_F(WeightWindow, CertificatesNameTheirMethod)
     note("Weights: bounded biharmonic. Optimal to within 2.0e-08. Bind again for monotone."));
   chosen->setCurrentIndex(0);
   EXPECT_TRUE(note("Weights: bounded biharmonic. Optimal to within 2.0e-08."));
-  // By default, the list of compared methods shows another method than that of the weights, so a
-  // comparison is possible. A comparison of a method with itself is disabled.
+  // By default, the compared method differs from the method of the weights, so a comparison is
+  // possible. A comparison of a method with itself is disabled.
   auto* other = this->panel()->findChild<QComboBox*>("weights.compare_with");
   EXPECT_TRUE(this->button("Compare")->isEnabled());
   other->setCurrentIndex(0);

@@ -176,7 +176,7 @@ TEST_F(WindowRoom, TheTimelineComesWithTheFirstKeyOrOnDemand)
   EXPECT_TRUE(shown());
   EXPECT_EQ(this->user.trigger("view.timeline"), QString());
   EXPECT_FALSE(shown());
-  EXPECT_EQ(this->user.press_key("K"), QString()); // the same key again
+  EXPECT_EQ(this->user.press_key("K"), QString()); // K does not show a hidden timeline
   EXPECT_FALSE(shown()) << "a person has sent it away";
   EXPECT_EQ(this->user.trigger("edit.undo"), QString());
   EXPECT_EQ(this->user.trigger("edit.undo"), QString());
@@ -189,7 +189,7 @@ TEST_F(WindowRoom, AScreenOf1280By800FitsAllOfIt)
 {
   this->open_figure();
   EXPECT_EQ(this->user.press_key("K"), QString());
-  // A desktop leaves this space for a window on a screen of 1280 x 800 pixels.
+  // On a screen of 1280 x 800 pixels, a desktop leaves this space for a window.
   const QSize available_size(1280, 720);
   for (int panel = 0; panel < 4; ++panel)
   {

@@ -73,7 +73,7 @@ def test_translated_handles_turn_freely(bar, method):
                                   abs=1e-12)
     sheared = posed({"version": 2, "handles": {"b1": full, "b2": {**full, **up, "space": "world"}}})
     assert abs(found - sheared).max() > 0.1
-    # Lengths along the bar change less than with linearly blended translations.
+    # Lengths along the bar change less if the method also computes the rotation of the handle b2.
     def strain(points):
         steps = np.linalg.norm(points[1:] - points[:-1], axis=1) / np.linalg.norm(bar.points[1:] - bar.points[:-1], axis=1)
         return np.abs(steps - 1).max()

@@ -185,8 +185,8 @@ TEST(KeyFrames, PivotsGoStraightOrOnAParabola)
   }
   EXPECT_NEAR(keys.pose_at(1.5, handles(), Pose(2))[1].transform(0, 3), 2.5, 1e-14);
   keys.interpolation = KeyInterpolation::spline;
-  // The slope at an inner key is that of the parabola through the key and its two neighbors. If all
-  // keys are on one parabola, the spline equals this parabola between inner keys.
+  // The slope at an inner key is the slope of the parabola through the key and its two neighbors.
+  // If all keys are on one parabola, the spline equals this parabola between inner keys.
   for (const double t : { 1.1, 1.5, 1.9 })
   {
     EXPECT_NEAR(keys.pose_at(t, handles(), Pose(2))[1].transform(0, 3), t * t, 1e-13);

@@ -200,7 +200,7 @@ TEST(Poser, RotationsAreTheFilters)
     }
     const auto clusters = found->cluster_of_point;
     ASSERT_TRUE(poser->solve(context, Pose(4), options, 0, posed).usable());
-    EXPECT_EQ(poser->rotations()->cluster_of_point, clusters); // the clusters are those of the bind
+    EXPECT_EQ(poser->rotations()->cluster_of_point, clusters); // a pose keeps the clusters
   }
   EXPECT_EQ(make_poser(PoseMethod::linear_blend, rig.source())->rotations(), nullptr);
 }
@@ -360,7 +360,7 @@ TEST(Poser, WhatCannotBePosedIsSaid)
   EXPECT_THAT(
     poser->solve(context, Pose(3), options, 0, posed).message, testing::HasSubstr("handles"));
 
-  // Without bones, stretchable-bone skinning equals linear blend skinning, and a warning says this.
+  // Without bones, stretchable-bone skinning equals linear blend skinning, and a warning is issued.
   Rig points = beam();
   for (Handle& handle : points.list)
   {

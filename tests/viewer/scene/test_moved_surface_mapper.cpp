@@ -1,5 +1,5 @@
-// MovedSurfaceMapper: after any change the picture equals that of a new VTK mapper. If only points
-// have moved, only points and normals are sent to the graphics card.
+// MovedSurfaceMapper: after any change the picture equals the picture of a new VTK mapper. If only
+// points have moved, only points and normals are sent to the graphics card.
 #include "shapes/moved_surface_mapper.h"
 #include "shapes/shaded_surface.h"
 
@@ -64,7 +64,7 @@ class MovedSurface : public testing::Test
 protected:
   MovedSurface() { this->scene.picture(); }
 
-  /// Compare the picture with that of a new VTK mapper.
+  /// Compare the picture with the picture of a new VTK mapper.
   void expect_right_picture()
   {
     Scene<vtkOpenGLPolyDataMapper> reference(this->shaded.polydata());

@@ -415,7 +415,7 @@ TEST(HandleGizmo, KeysStartDragsThatFollowTheMouse)
   EXPECT_FALSE(stage.widget->IsDragging());
   stage.send(vtkCommand::LeftButtonReleaseEvent, away + unit);
   EXPECT_FALSE(stage.widget->GetCanceled());
-  // The right mouse button cancels.
+  // The right mouse button cancels a drag that a key has started.
   stage.key("r");
   stage.send(vtkCommand::MouseMoveEvent, away);
   EXPECT_GT(degrees_of(linear(stage.transform(0))), 1.0);

@@ -5,6 +5,7 @@
 #include "base/execution.h"
 #include "conversion.h"
 #include "domain/bone_cut.h"
+#include "weights_input.h"
 
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
@@ -17,6 +18,8 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
+#include <vector>
 
 using namespace bindpose;
 
@@ -153,6 +156,11 @@ Status vtkCutAlongBones::Execute(
   {
     status = to_curves(handle_data, handles, cells, curves);
   }
+  std::vector<Index> old_labels;
+  if (status.ok())
+  {
+    status = to_region_ids(mesh, "RegionId", old_labels);
+  }
   if (!status.ok())
   {
     return status;
@@ -166,8 +174,8 @@ Status vtkCutAlongBones::Execute(
   }
 
   // Labels of the sides start after the mesh's own labels.
-  vtkDataArray* old_labels = mesh->GetPointData()->GetArray("RegionId");
-  const auto base = old_labels ? static_cast<Index>(std::max(0.0, old_labels->GetRange(0)[1])) : 0;
+  const Index base = std::accumulate(old_labels.begin(), old_labels.end(), Index(0),
+    [](Index largest, Index label) { return std::max(largest, label); });
   Sides sides;
   for (std::size_t j = 0; j < handles.size(); ++j)
   {
@@ -220,8 +228,7 @@ Status vtkCutAlongBones::Execute(
     const Index original = cut.original[point];
     data->CopyData(mesh->GetPointData(), original, v);
     originals->InsertNextValue(original);
-    const Index old_label =
-      old_labels ? static_cast<Index>(old_labels->GetComponent(original, 0)) : 0;
+    const Index old_label = old_labels.empty() ? 0 : old_labels[original];
     labels->InsertNextValue(cut.side[point] > 0 ? base + cut.side[point] : old_label);
   }
   data->AddArray(originals);

@@ -432,7 +432,7 @@ Status vtkWeightsAlgorithm::Bind(
     [](const Handle& handle) { return handle.kind == HandleKind::region; });
   if (status.ok() && regions)
   {
-    status = to_region_ids(vtkPointSet::SafeDownCast(mesh), this->RegionArrayName, region_ids);
+    status = to_region_ids(mesh, this->RegionArrayName, region_ids);
   }
   if (!status.ok())
   {

@@ -3,6 +3,7 @@
 // only tets.
 #include "conversion.h"
 
+#include "base/number_text.h"
 #include "cell_check.h"
 #include "geometry/working_frame.h"
 
@@ -29,6 +30,7 @@
 
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace bindpose
 {
@@ -398,6 +400,45 @@ double cell_value(vtkPolyData* data, const char* name, vtkIdType cell, double fa
   vtkDataArray* array = data->GetCellData()->GetArray(name);
   return array && cell < array->GetNumberOfTuples() ? array->GetComponent(cell, 0) : fallback;
 }
+
+/// Replace `value` by the value of a cell in an array, if the array has one. Return invalid_input
+/// if this value is not an integer.
+Status read_integer(vtkPolyData* data, const char* name, vtkIdType cell, Index& value)
+{
+  const double number = cell_value(data, name, cell, static_cast<double>(value));
+  return to_integer(number, value)
+    ? Status()
+    : Status::invalid_input(std::string(name) + " of handle cell " + std::to_string(cell) +
+        " must be an integer, not " + short_number(number));
+}
+
+/// Values of the cell arrays that describe a handle.
+struct HandleCell
+{
+  Index kind = -1; ///< HandleKind or pseudo_edge_kind
+  Index region_id = 0;
+  Index ownership = 0;
+  Index parent = -1; ///< a cell id
+};
+
+/// Read the values that describe the handle of a cell with `size` points.
+Status read_handle_cell(vtkPolyData* data, vtkIdType cell, vtkIdType size, HandleCell& values)
+{
+  values.kind = static_cast<Index>(size == 2 ? HandleKind::bone : HandleKind::point);
+  const std::pair<const char*, Index*> arrays[] = { { "HandleKind", &values.kind },
+    { "RegionId", &values.region_id }, { "Ownership", &values.ownership },
+    { "Parent", &values.parent } };
+  for (const auto& [name, value] : arrays)
+  {
+    const Status status = read_integer(data, name, cell, *value);
+    if (!status.ok())
+    {
+      return status;
+    }
+  }
+  return {};
+}
+
 /// Add the edges and faces of cages as cells; split polygons into fans. The points of these cells
 /// must be the points of cage vertices or have the same positions.
 Status add_cages(vtkPolyData* data, const std::vector<Index>& handle_of_cell, Handles& handles)
@@ -465,6 +506,17 @@ Status add_cages(vtkPolyData* data, const std::vector<Index>& handle_of_cell, Ha
 }
 } // namespace
 
+bool to_integer(double number, Index& integer)
+{
+  constexpr double largest = 0x1p53; // doubles represent all integers up to this one
+  if (!(std::abs(number) <= largest) || number != std::floor(number))
+  {
+    return false;
+  }
+  integer = static_cast<Index>(number);
+  return true;
+}
+
 Status to_handles(vtkPolyData* data, Handles& handles, std::vector<Index>* cells)
 {
   handles.clear();
@@ -487,19 +539,23 @@ Status to_handles(vtkPolyData* data, Handles& handles, std::vector<Index>* cells
     data->GetCellPoints(cell, ids);
     const vtkIdType size = ids->GetNumberOfIds();
     const std::string cell_name = "handle cell " + std::to_string(cell);
-    const double fallback_kind = size == 2 ? 1 : 0;
-    const int kind = static_cast<int>(cell_value(data, "HandleKind", cell, fallback_kind));
-    if (kind == pseudo_edge_kind)
+    HandleCell values;
+    const Status status = read_handle_cell(data, cell, size, values);
+    if (!status.ok())
+    {
+      return status;
+    }
+    if (values.kind == pseudo_edge_kind)
     {
       continue; // pseudo-edges are not handles
     }
-    if (kind < -1 || kind > 3)
+    if (values.kind < -1 || values.kind > 3)
     {
       return Status::invalid_input(
-        cell_name + " has the unknown HandleKind " + std::to_string(kind));
+        cell_name + " has the unknown HandleKind " + std::to_string(values.kind));
     }
     Handle handle;
-    handle.kind = static_cast<HandleKind>(kind);
+    handle.kind = static_cast<HandleKind>(values.kind);
     if (handle.kind == HandleKind::cage_element)
     {
       continue;
@@ -520,14 +576,13 @@ Status to_handles(vtkPolyData* data, Handles& handles, std::vector<Index>* cells
     {
       handle.name = (bone ? "b" : "p") + std::to_string(number);
     }
-    handle.region_id = static_cast<Index>(cell_value(data, "RegionId", cell, 0));
-    const double ownership = cell_value(data, "Ownership", cell, 0);
-    if (ownership != 0.0 && ownership != 1.0 && ownership != 2.0)
+    handle.region_id = values.region_id;
+    if (values.ownership < 0 || values.ownership > 2)
     {
       return Status::invalid_input(cell_name + " has an unknown Ownership; expected 0, 1 or 2");
     }
-    handle.ownership = static_cast<Ownership>(static_cast<int>(ownership));
-    parents.push_back(static_cast<Index>(cell_value(data, "Parent", cell, -1)));
+    handle.ownership = static_cast<Ownership>(values.ownership);
+    parents.push_back(values.parent);
     handle_of_cell[cell] = static_cast<Index>(handles.size());
     handles.push_back(handle);
     if (cells)
@@ -692,8 +747,13 @@ Status to_pose(
   for (std::size_t i = 0; i < cells.size(); ++i)
   {
     const vtkIdType cell = cells[i];
-    constexpr int automatic = static_cast<int>(HandleMode::automatic);
-    const int mode = static_cast<int>(cell_value(data, "Mode", cell, automatic));
+    constexpr auto automatic = static_cast<Index>(HandleMode::automatic);
+    Index mode = automatic;
+    Status status = read_integer(data, "Mode", cell, mode);
+    if (!status.ok())
+    {
+      return status;
+    }
     if (mode < 0 || mode > automatic)
     {
       return Status::invalid_input(
@@ -709,7 +769,7 @@ Status to_pose(
       twists->GetTuple(cell, pose[i].twist.data());
     }
     pose[i].stretch = cell_value(data, "Stretch", cell, 1.0);
-    const Status status = check_pose_values(handles[i], pose[i]);
+    status = check_pose_values(handles[i], pose[i]);
     if (!status.ok())
     {
       return status;

@@ -28,6 +28,10 @@ namespace bindpose
 /// handle; it only determines how its points rotate in a pose.
 constexpr int pseudo_edge_kind = -2;
 
+/// Convert a value of a VTK array to an integer. @return false if the value is not an integer from
+/// -2^53 to 2^53.
+bool to_integer(double number, Index& integer);
+
 /// A matrix that refers to VTK's memory if the layout allows it, and otherwise owns a copy.
 template <typename Matrix>
 class SharedMatrix

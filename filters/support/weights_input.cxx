@@ -1,12 +1,13 @@
 // Checks and converts weights and their handles, for all filters that use weights.
 #include "weights_input.h"
 
+#include "base/number_text.h"
+
 #include "vtkDataArray.h"
+#include "vtkDataSet.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
-
-#include <cmath>
 
 namespace bindpose
 {
@@ -77,7 +78,7 @@ Status to_weights_input(
   return status;
 }
 
-Status to_region_ids(vtkPointSet* mesh, const std::string& name, std::vector<Index>& region_ids)
+Status to_region_ids(vtkDataSet* mesh, const std::string& name, std::vector<Index>& region_ids)
 {
   region_ids.clear();
   vtkAbstractArray* found = mesh->GetPointData()->GetAbstractArray(name.c_str());
@@ -91,15 +92,21 @@ Status to_region_ids(vtkPointSet* mesh, const std::string& name, std::vector<Ind
     return Status::invalid_input(
       "the point array '" + name + "' of region labels must have one component");
   }
+  if (array->GetNumberOfTuples() != mesh->GetNumberOfPoints())
+  {
+    return Status::invalid_input("the point array '" + name + "' of region labels has " +
+      std::to_string(array->GetNumberOfTuples()) + " values, but the mesh has " +
+      std::to_string(mesh->GetNumberOfPoints()) + " points");
+  }
+  region_ids.resize(static_cast<std::size_t>(array->GetNumberOfTuples()));
   for (vtkIdType v = 0; v < array->GetNumberOfTuples(); ++v)
   {
     const double label = array->GetComponent(v, 0);
-    if (!(std::abs(label) < 1e15) || label != std::floor(label))
+    if (!to_integer(label, region_ids[v]))
     {
-      return Status::invalid_input(
-        "the region label of point " + std::to_string(v) + " is not an integer");
+      return Status::invalid_input("the region label of point " + std::to_string(v) +
+        " in the array '" + name + "' must be an integer, not " + short_number(label));
     }
-    region_ids.push_back(static_cast<Index>(label));
   }
   return {};
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 class vtkDataArray;
+class vtkDataSet;
 class vtkPointSet;
 class vtkPolyData;
 
@@ -38,7 +39,7 @@ Status to_weights_input(
 /// Return the point array `name` of region labels, one per point; empty if there is no such array.
 /// Return invalid_input for labels that are not integers.
 BINDPOSEFILTERS_EXPORT Status to_region_ids(
-  vtkPointSet* mesh, const std::string& name, std::vector<Index>& region_ids);
+  vtkDataSet* mesh, const std::string& name, std::vector<Index>& region_ids);
 
 /// Return the error "the mesh has no point array 'W' with weights (its point arrays: A, B)".
 Status missing_weights_error(vtkPointSet* mesh, const std::string& array_name);

@@ -7,6 +7,7 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkDoubleArray.h"
 #include "vtkNew.h"
 #include "vtkPlaneSource.h"
 #include "vtkPolyData.h"
@@ -16,6 +17,8 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 using namespace bindpose;
 
@@ -160,6 +163,38 @@ TEST(Conversion, PlainPointsAndLinesAreHandles)
   EXPECT_EQ(handles[0].name, "p1");
   EXPECT_EQ(handles[1].name, "b1");
   EXPECT_EQ(handles[1].kind, HandleKind::bone);
+}
+
+TEST(Conversion, ValuesOfHandlesMustBeIntegers)
+{
+  Handles handles(2);
+  handles[0].name = "left";
+  handles[1].name = "right";
+  handles[1].head = handles[1].tail = Vec3(1, 0, 0);
+  for (const std::string name : { "HandleKind", "RegionId", "Ownership", "Parent", "Mode" })
+  {
+    for (const double value : { 0.5, std::nan(""), HUGE_VAL, -1e300 })
+    {
+      const auto data = to_polydata(handles);
+      vtkNew<vtkDoubleArray> values;
+      values->SetName(name.c_str());
+      values->InsertNextValue(name == "Parent" ? -1.0 : 0.0);
+      values->InsertNextValue(value);
+      data->GetCellData()->AddArray(values);
+      Handles back;
+      std::vector<Index> cells;
+      Status status = to_handles(data, back, &cells);
+      if (name == "Mode")
+      {
+        ASSERT_TRUE(status.ok()) << status.message;
+        Pose pose;
+        status = to_pose(data, back, cells, pose);
+      }
+      EXPECT_EQ(status.code, StatusCode::invalid_input);
+      EXPECT_EQ(status.message.find(name + " of handle cell 1 must be an integer, not "), 0u)
+        << status.message;
+    }
+  }
 }
 
 TEST(Conversion, ReportsSurviveFieldData)

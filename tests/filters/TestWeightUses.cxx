@@ -13,6 +13,7 @@
 #include "report_field_data.h"
 #include "support/handles.h"
 #include "support/meshes.h"
+#include "weights_input.h"
 
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
@@ -455,6 +456,31 @@ TEST(CutAlongBones, BonesOfOneCurveAreOnePairOfSides)
   cut->Update();
   ASSERT_EQ(listener->errors.size(), 1u);
   EXPECT_THAT(listener->errors[0], HasSubstr("'Curve'"));
+}
+
+TEST(CutAlongBones, LabelsMustBeIntegersOfAllPoints)
+{
+  const TriangleMesh mesh = test::grid(2, 2);
+  const auto square = to_polydata(mesh.points, mesh.triangles);
+  std::vector<Index> labels;
+  ASSERT_TRUE(to_region_ids(square, "RegionId", labels).ok());
+  EXPECT_TRUE(labels.empty());
+  vtkNew<vtkDoubleArray> array;
+  array->SetName("RegionId");
+  array->SetNumberOfTuples(mesh.points.rows());
+  array->Fill(7.0);
+  square->GetPointData()->AddArray(array);
+  ASSERT_TRUE(to_region_ids(square, "RegionId", labels).ok());
+  EXPECT_EQ(labels, std::vector<Index>(9, 7));
+  for (const double wrong : { 0.5, std::nan(""), 1e300 })
+  {
+    array->SetValue(4, wrong);
+    EXPECT_THAT(to_region_ids(square, "RegionId", labels).message,
+      HasSubstr("label of point 4 in the array 'RegionId' must be an integer, not "));
+  }
+  array->SetNumberOfTuples(8);
+  EXPECT_THAT(to_region_ids(square, "RegionId", labels).message,
+    HasSubstr("has 8 values, but the mesh has 9 points"));
 }
 
 TEST(CutAlongBones, LabelsThatAreThereStay)

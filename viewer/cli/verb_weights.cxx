@@ -14,6 +14,7 @@
 #include "vtkMonotoneWeights.h"
 #include "vtkTransferWeights.h"
 #include "vtkUnconstrainedWeights.h"
+#include "weights_input.h"
 
 #include "vtkCellType.h"
 #include "vtkDataArray.h"
@@ -22,6 +23,7 @@
 #include "vtkPolyData.h"
 
 #include <map>
+#include <vector>
 
 namespace bindpose::cli
 {
@@ -85,19 +87,22 @@ bool is_tets(vtkDataSet* data)
 bool add_region_handles(Session& session, vtkDataSet* mesh, const std::string& array_name,
   vtkSmartPointer<vtkPolyData>& data)
 {
-  vtkDataArray* labels = mesh->GetPointData()->GetArray(array_name.c_str());
-  if (!labels || labels->GetNumberOfComponents() != 1)
+  std::vector<Index> labels;
+  Status status = to_region_ids(mesh, array_name, labels);
+  if (!status.ok())
   {
-    return session.invalid(
-      "--regions: the mesh has no point array '" + array_name + "' with one component");
+    return session.fail(status);
+  }
+  if (labels.empty())
+  {
+    return session.invalid("--regions: the mesh has no point array '" + array_name + "'");
   }
   std::map<Index, std::pair<Vec3, Index>> sums;
   for (vtkIdType v = 0; v < mesh->GetNumberOfPoints(); ++v)
   {
-    const auto label = static_cast<Index>(labels->GetComponent(v, 0));
-    if (label > 0)
+    if (labels[v] > 0)
     {
-      auto& sum = sums.insert({ label, { Vec3::Zero(), 0 } }).first->second;
+      auto& sum = sums.insert({ labels[v], { Vec3::Zero(), 0 } }).first->second;
       sum.first += Vec3(mesh->GetPoint(v));
       sum.second += 1;
     }
@@ -107,7 +112,7 @@ bool add_region_handles(Session& session, vtkDataSet* mesh, const std::string& a
     return session.invalid("--regions: the point array '" + array_name + "' has no label above 0");
   }
   Handles handles;
-  Status status = to_handles(data, handles);
+  status = to_handles(data, handles);
   if (!status.ok())
   {
     return session.fail(status);

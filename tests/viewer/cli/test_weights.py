@@ -168,6 +168,11 @@ def test_regions(bar):
         # in r1.
         assert (weights[x > 5][:, 1] < 1e-9).all() and (weights[x < 1][:, 2] < 1e-9).all()
     bar.run("weights", "painted.vtp", "--handles", "auto:1", "--regions", "Nope", "-o", "w2.vtp").is_refused("'Nope'")
+    add_point_array(mesh, "Halves", np.where(x < 1, 1.0, 0.5))
+    bindpose.write(mesh, bar / "halves.vtp")
+    first = np.flatnonzero(x >= 1)[0]
+    bar.run("weights", "halves.vtp", "--handles", "auto:1", "--regions", "Halves", "-o", "w2.vtp").is_refused(
+        f"the region label of point {first} in the array 'Halves' must be an integer, not 0.5")
 
 
 def test_bad_handles(bar):

@@ -11,11 +11,10 @@
 
 #include "conversion.h"
 #include "handle_geometry.h"
+#include "weights_input.h"
 
-#include "vtkDataArray.h"
 #include "vtkFieldData.h"
 #include "vtkNew.h"
-#include "vtkPointData.h"
 #include "vtkUnstructuredGrid.h"
 
 namespace app::weights
@@ -58,6 +57,10 @@ bool Binding::make_input(BindInput& input)
   {
     status = to_handle_geometry(this->document_->handle_data(), geometry);
   }
+  if (status.ok())
+  {
+    status = to_region_ids(surface_data, "RegionId", input.region_of_vertex);
+  }
   if (!status.ok())
   {
     Q_EMIT this->failed(tr("Cannot bind: %1.").arg(QString::fromStdString(status.message)));
@@ -67,13 +70,6 @@ bool Binding::make_input(BindInput& input)
   input.surface.triangles = surface.triangles.view();
   input.handles = this->document_->handles();
   input.handle_elements = to_handle_elements(geometry);
-  if (vtkDataArray* regions = surface_data->GetPointData()->GetArray("RegionId"))
-  {
-    for (vtkIdType v = 0; v < regions->GetNumberOfTuples(); ++v)
-    {
-      input.region_of_vertex.push_back(static_cast<Index>(regions->GetComponent(v, 0)));
-    }
-  }
   return true;
 }
 

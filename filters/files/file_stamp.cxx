@@ -6,14 +6,13 @@
 namespace bindpose
 {
 
-FileStamp::FileStamp(const std::string& path) : path_(path)
+FileStamp::FileStamp(const std::string& path, Time read_begin) : path_(path)
 {
   constexpr std::chrono::milliseconds clock_step(100); // longer than the resolution of file times
   std::error_code no_size, no_time;
   this->size_ = std::filesystem::file_size(path, no_size);
   this->written_ = std::filesystem::last_write_time(path, no_time);
-  this->is_settled_ = !no_size && !no_time &&
-    std::filesystem::file_time_type::clock::now() - this->written_ > clock_step;
+  this->is_settled_ = !no_size && !no_time && read_begin - this->written_ > clock_step;
 }
 
 bool FileStamp::has_content_of(const FileStamp& stored) const

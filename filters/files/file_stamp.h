@@ -12,18 +12,21 @@ namespace bindpose
 class FileStamp
 {
 public:
-  FileStamp() = default;
-  explicit FileStamp(const std::string& path);
+  using Time = std::filesystem::file_time_type;
 
-  /// Report whether the file is unchanged since `stored` was made. The result is false if a file
-  /// does not exist, or if `stored` was made within 0.1 s of a change of the file, because a
-  /// further change could then have the same time.
+  FileStamp() = default;
+  /// Make the stamp of a file whose content is read after `read_begin`.
+  explicit FileStamp(const std::string& path, Time read_begin = Time::clock::now());
+
+  /// Report whether the file has the content that was read for `stored`. The result is false if a
+  /// file does not exist, or if the file was changed less than 0.1 s before the read began, or
+  /// later: the content could then be of another change with the same time.
   bool has_content_of(const FileStamp& stored) const;
 
 private:
   std::string path_;
   std::uintmax_t size_ = 0;
-  std::filesystem::file_time_type written_;
+  Time written_;
   bool is_settled_ = false;
 };
 

@@ -347,12 +347,14 @@ Status read_gltf(const std::string& path, GltfData& data)
 
 Status GltfFile::read(const std::string& path)
 {
-  const auto stamps_of = [&path](const std::vector<std::string>& buffer_files)
+  const FileStamp::Time read_begin = FileStamp::Time::clock::now();
+  // Files that change during the read get stamps that are not valid for the next call.
+  const auto stamps_of = [&](const std::vector<std::string>& buffer_files)
   {
-    std::vector<FileStamp> stamps{ FileStamp(path) };
+    std::vector<FileStamp> stamps{ FileStamp(path, read_begin) };
     for (const std::string& file : buffer_files)
     {
-      stamps.emplace_back(file);
+      stamps.emplace_back(file, read_begin);
     }
     return stamps;
   };
@@ -362,12 +364,8 @@ Status GltfFile::read(const std::string& path)
       [](const FileStamp& now, const FileStamp& stored) { return now.has_content_of(stored); });
   if (!is_unchanged)
   {
-    const FileStamp before(path);
     this->status_ = read_gltf(path, this->data_);
-    // Store the stamp of the file from before the read. If the file changes during the read, the
-    // stored stamp is then out of date, and the next call reads the file again.
     this->stamps_ = stamps_of(this->data_.buffer_files);
-    this->stamps_.front() = before;
     if (!this->status_.ok())
     {
       this->stamps_.clear();

@@ -401,6 +401,8 @@ TEST(FileStamp, DetectsChangedFiles)
   const FileStamp stored(path);
   EXPECT_TRUE(FileStamp(path).has_content_of(stored));
   EXPECT_FALSE(FileStamp(folder.write("b.txt", "one")).has_content_of(stored));
+  const FileStamp changed_during_read(path, long_ago - std::chrono::seconds(1));
+  EXPECT_FALSE(FileStamp(path).has_content_of(changed_during_read));
   std::filesystem::last_write_time(path, long_ago + std::chrono::seconds(1));
   EXPECT_FALSE(FileStamp(path).has_content_of(stored));
   folder.write("a.txt", "three");

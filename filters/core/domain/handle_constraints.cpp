@@ -236,6 +236,10 @@ Status assign_own_vertices(const Handles& handles, const Box& box,
         std::all_of(
           list.begin(), list.end(), [&](Index i) { return i == at || own_vertex_count[i] > 0; }))
       {
+        for (const Index other : list)
+        {
+          result.counts[other] -= other == at ? 0 : 1;
+        }
         list = { at };
         set_row(vertex->first, list);
         own_vertex_count[j] = 1;
@@ -266,8 +270,11 @@ Status assign_own_vertices(const Handles& handles, const Box& box,
   }
   if (skipped.size() == handles.size())
   {
+    const bool all_without_influence = std::all_of(handles.begin(), handles.end(),
+      [](const Handle& handle) { return handle.ownership == Ownership::none; });
     return Status::invalid_input(
-      "no handle constrains a vertex because all handles are on elements without area");
+      std::string("no handle constrains a vertex because all handles are ") +
+      (all_without_influence ? "joints that move no vertices" : "on elements without area"));
   }
   if (!skipped.empty())
   {

@@ -550,6 +550,41 @@ TEST(Weights, AHelperJointWithoutAVertexHasNoWeights)
     1e-5);
 }
 
+TEST(Weights, JointsThatMoveNoVerticesAreRefused)
+{
+  Handles joints{ test::point_handle("root", Vec3(0.2, 0.2, 0.2)),
+    test::point_handle("control", Vec3(0.7, 0.7, 0.7)) };
+  for (Handle& joint : joints)
+  {
+    joint.ownership = Ownership::none;
+  }
+  WeightsProblem problem;
+  ExecutionContext context;
+  const Status status =
+    make_weights_problem(context, test::to_domain(test::tet_box(4, 4, 4)), {}, joints, {}, problem);
+  EXPECT_EQ(status.code, StatusCode::invalid_input);
+  EXPECT_EQ(status.message,
+    "no handle constrains a vertex because all handles are joints that move no vertices");
+}
+
+TEST(Weights, AVertexBelongsToOneHandleOfTheReport)
+{
+  const Handle bone = test::bone_handle("bone", Vec3(0.5, 0.5, 0.25), Vec3(0.5, 0.5, 0.75));
+  const Domain box = test::to_domain(test::tet_box(4, 4, 4));
+  const auto constrained_vertices = [&](const Handles& handles)
+  {
+    ExecutionContext context;
+    WeightsResult result;
+    const Status status = bounded_biharmonic_weights(context, problem_of(box, handles), {}, result);
+    return std::get<std::vector<std::int64_t>>(
+      *status.report.find("handles[].constrained_vertices"));
+  };
+  EXPECT_EQ(constrained_vertices({ bone }), std::vector<std::int64_t>{ 3 });
+  // the point takes over the vertex in the middle of the bone
+  const Handle point = test::point_handle("point", Vec3(0.5, 0.5, 0.5));
+  EXPECT_EQ(constrained_vertices({ point, bone }), (std::vector<std::int64_t>{ 1, 2 }));
+}
+
 TEST(Weights, TheReportTellsWhatWasDone)
 {
   const WeightsProblem problem = problem_of(test::to_domain(test::tet_box(4, 4, 4)),

@@ -220,7 +220,7 @@ def broken_tets(row, path, method):
 def broken_volume(row):
     report = row.report
     volume, winding = report["volume"], report["winding_volume"]
-    warned = any("but the enclosed volume by winding number" in warning for warning in report.get("warnings", []))
+    warned = any("enclosed volume by winding number" in warning for warning in report.get("warnings", []))
     ratio = volume / winding if winding > 0 else math.inf
     if (not 0.9 <= ratio <= 1.1 and not warned) or not 0.5 <= ratio <= 2.0:
         return [f"volume {volume:g}, but the winding number encloses {winding:g}"]

@@ -92,9 +92,7 @@ void AttemptLog::report(Report& report) const
 
 Status wrong_volume_error(double volume, const EnclosedRegion& inside)
 {
-  return Status::failure(StatusCode::internal_error,
-    "the tets have volume " + short_number(volume) +
-      ", but the enclosed volume by winding number is " + short_number(inside.volume()));
+  return Status::failure(StatusCode::internal_error, inside.relative_volume(volume));
 }
 
 CdtTets::CdtTets(ExecutionContext& context, const RepairedSurface& surface, EnclosedRegion& inside,

@@ -51,7 +51,7 @@ struct CdtOptions
 };
 
 /// Return the failure for tets whose volume differs from that of the enclosed region. The message
-/// contains both volumes.
+/// is EnclosedRegion::relative_volume().
 Status wrong_volume_error(double volume, const EnclosedRegion& inside);
 
 /// Constrained Delaunay tets of the convex hull of a surface, reduced to the tets that the

@@ -271,8 +271,8 @@ Status CdtTets::accept(TetMesh& mesh)
   if (std::abs(after - this->volume_) > rounding * this->volume_)
   {
     return Status::failure(StatusCode::internal_error,
-      "the added vertices changed the volume from " + short_number(this->volume_) + " to " +
-        short_number(after));
+      "the added vertices changed the volume by a factor of " +
+        short_number(after / this->volume_, 12));
   }
   Status status = check_tets(mesh.points, mesh.tets);
   if (status.ok())

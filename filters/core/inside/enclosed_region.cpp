@@ -139,6 +139,14 @@ double EnclosedRegion::misfit(double volume) const
                                              : std::numeric_limits<double>::infinity();
 }
 
+std::string EnclosedRegion::relative_volume(double tet_volume) const
+{
+  return this->volume_ > 0.0
+    ? "the volume of the tets is " + short_number(100.0 * tet_volume / this->volume_, 3) +
+      " % of the enclosed volume by winding number"
+    : "the tets have a volume, but the enclosed volume by winding number is 0";
+}
+
 Status EnclosedRegion::nothing_enclosed_error() const
 {
   return Status::invalid_input("the surface encloses nothing: its largest winding number is " +

@@ -5,6 +5,8 @@
 #include "surface/surface_repair.h"
 #include "winding/winding_number.h"
 
+#include <string>
+
 namespace bindpose
 {
 
@@ -36,6 +38,9 @@ public:
   /// Return |log(volume / volume())|. The misfit is 0 for equal volumes, log 2 for a volume that is
   /// twice or half as large, and infinity for an empty volume.
   double misfit(double volume) const;
+  /// Return a sentence that compares the volume of tets with volume(). It contains a percentage
+  /// instead of the volumes, because the kernel may compute in scaled coordinates (WorkingFrame).
+  std::string relative_volume(double tet_volume) const;
   /// Report whether labels of tets are exact, which is the case for a closed surface. If labels are
   /// exact and no tet is inside, smaller tets will not be inside either.
   bool labels_are_exact() const { return this->closed_; }

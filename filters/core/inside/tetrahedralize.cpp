@@ -621,9 +621,8 @@ private:
       const TetMesh& mesh = this->result_.mesh;
       this->warn("the surface is open (" + std::to_string(this->surface_.found.boundary_edges) +
         " boundary edges); where an opening is wider than twice wrap_alpha, the wrap is only a "
-        "thin shell; the volume of the tets is " +
-        short_number(tet_volumes(mesh.points, mesh.tets).sum()) +
-        ", but the enclosed volume by winding number is " + short_number(this->inside_.volume()));
+        "thin shell; " +
+        this->inside_.relative_volume(tet_volumes(mesh.points, mesh.tets).sum()));
     }
     return this->finish_remeshed(TetMethod::wrap);
   }

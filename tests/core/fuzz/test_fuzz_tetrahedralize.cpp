@@ -350,7 +350,7 @@ void expect_volume(test::Random& random, const TriangleMesh& surface,
     EXPECT_LT(volume, 2.2 * winding);
     const bool warned = std::any_of(status.warnings.begin(), status.warnings.end(),
       [](const std::string& text)
-      { return text.find("but the enclosed volume by winding number") != std::string::npos; });
+      { return text.find("enclosed volume by winding number") != std::string::npos; });
     // The value of `winding` is an estimate from 20,000 samples inside of the surface, or from
     // fewer samples if the sampling takes too long.
     EXPECT_TRUE(warned || std::abs(volume / winding - 1.0) < 0.15)

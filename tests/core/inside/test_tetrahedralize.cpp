@@ -183,7 +183,8 @@ TEST(Tetrahedralize, FtetwildIsJudgedLikeAnyOther)
   const Outcome off = run(longer, TetMethod::ftetwild);
   expect_valid(off, longer);
   ASSERT_EQ(off.status.warnings.size(), 1u);
-  EXPECT_THAT(off.status.warnings[0], HasSubstr("but the enclosed volume by winding number"));
+  EXPECT_THAT(
+    off.status.warnings[0], HasSubstr("is 140 % of the enclosed volume by winding number"));
   EXPECT_GT(off.number("distance_max"), 5.0);
   // The returned cube has five times the volume of this box. There is no result, because only a
   // factor of up to 2 is accepted.

@@ -11,6 +11,7 @@ usage: new_option.py FOLDER [CMAKE_OPTION…]      FOLDER gets the copy and its 
 """
 
 import json
+import os
 import pathlib
 import shutil
 import subprocess
@@ -95,7 +96,8 @@ def main():
     edit_only = sys.argv[1] == "--edit-only"
     folder = pathlib.Path(sys.argv[2 if edit_only else 1]).resolve()
     folder.mkdir(parents=True)
-    copy, build = folder / "copy", folder / "build"
+    copy = folder / "copy"
+    build = copy / "build"
     if edit_only:
         shutil.copytree(ROOT / "filters", copy / "filters")
         add_the_option(copy)
@@ -104,7 +106,8 @@ def main():
     add_the_option(copy)
     run("cmake", "-S", copy, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON",
         "-DBINDPOSE_WITH_QT=OFF", "-DBINDPOSE_BUILD_BENCHMARKS=OFF", *sys.argv[2:])
-    run("ninja", "-C", build)
+    # With this setting, the compiler cache finds the files that are the same as in the original.
+    run("ninja", "-C", build, env={**os.environ, "CCACHE_BASEDIR": str(copy)})
     (folder / "cube.off").write_text(CUBE, encoding="ascii")
     program = build / "bin" / "bindpose"
     usage = run(program, "tetrahedralize", "--help")

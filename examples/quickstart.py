@@ -81,7 +81,7 @@ class Program:
         self.child: subprocess.Popen[bytes] | None = None
 
     def end(self, *_: object) -> None:
-        """Handle SIGTERM like Ctrl-C, which a terminal also sends to the child process."""
+        """Handle SIGTERM like Ctrl-C: send SIGINT to the child process and to this process, as a terminal does."""
         if self.child:
             self.child.send_signal(signal.SIGINT)
         signal.raise_signal(signal.SIGINT)

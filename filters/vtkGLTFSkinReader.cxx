@@ -1,5 +1,5 @@
-// Connects the kernel of io/gltf_skin.h to VTK. The kernel reads the file; gltf_data.h converts its
-// joints to handles.
+// Connects the kernel of gltf/gltf_skin.h to VTK. The kernel reads the file; gltf_data.h converts
+// its joints to handles.
 #include "vtkGLTFSkinReader.h"
 
 #include "base/execution.h"
@@ -103,8 +103,8 @@ Status vtkGLTFSkinReader::Execute(
   mesh->ShallowCopy(data.mesh);
   handles->ShallowCopy(data.handles);
   int frame = this->Frame;
-  // If each output has a requested time, use the time that is requested for the handles (port 1),
-  // because the mesh is the same at all times.
+  // If times are requested for both outputs, use the time of the handles (port 1), because the mesh
+  // is the same at all times.
   for (int port = 0; port < 2; ++port)
   {
     double time = 0.0;

@@ -1,4 +1,5 @@
-"""Generated surfaces as pairs of arrays (vertices #V x 3, triangles #F x 3), and the direct sum of solid angles."""
+"""Functions that generate surfaces as pairs of arrays (vertices #V x 3, triangles #F x 3). Another function computes
+winding numbers by a direct sum of solid angles."""
 
 import numpy as np
 

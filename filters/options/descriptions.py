@@ -256,7 +256,8 @@ def read_sets(source=SOURCE):
 
 
 class Verb:
-    """A verb of the command line: its own options and the options of its sets, in the order of --help."""
+    """A verb of the command line. `options` contains the verb's own options and the options of its sets, in the order
+    of --help."""
 
     def __init__(self, fields, sets, where):
         self.name = fields["name"]

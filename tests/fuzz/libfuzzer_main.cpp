@@ -55,8 +55,9 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv)
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
   chosen_target->check({ reinterpret_cast<const char*>(data), size });
-  // An expectation that fails ends the process, so that libFuzzer writes the input to a file.
-  // libFuzzer does not handle the signal of GoogleTest's flag break_on_failure.
+  // If an expectation has failed, end the process, so that libFuzzer writes the input to a file.
+  // GoogleTest's flag break_on_failure cannot be used instead, because libFuzzer does not handle
+  // the signal of this flag.
   if (testing::UnitTest::GetInstance()->ad_hoc_test_result().Failed())
   {
     std::abort();
@@ -64,7 +65,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   return 0;
 }
 
-/// Half of the mutations change lines and numbers (damaged_file()); the others are libFuzzer's.
+/// Half of the mutations are those of damaged_file(), which also changes whole lines and numbers.
+/// The other half are libFuzzer's own mutations.
 extern "C" std::size_t LLVMFuzzerCustomMutator(
   std::uint8_t* data, std::size_t size, std::size_t maximum, unsigned int seed)
 {

@@ -45,8 +45,8 @@ def test_tangents_of_an_array_tilt_the_edge():
     up = np.where((DEPTH == 2)[:, None], [0, 0, 1.0], 0)
     made = np.asarray(bindpose.fair((FLAT, TRIANGLES), FIXED, boundary="tangent", tangents=up))
     free = ~FIXED
-    # `tangents` are derivatives in the outward direction: the patch rises toward its boundary, which is at z = 0. All
-    # free vertices of the patch are therefore at z < 0.
+    # `tangents` are derivatives in the outward direction. Here they point up, so the patch rises toward its boundary.
+    # The boundary is at z = 0. Therefore all free vertices of the patch are at z < 0.
     assert made[free, 2].max() < 0
     assert np.array_equal(made[FIXED], FLAT[FIXED])
 

@@ -45,7 +45,8 @@ public:
 private:
   using Clock = std::chrono::steady_clock;
 
-  /// Declared before cancel_thread_, because the thread starts at once and writes this time.
+  /// Time of the cancel request. The thread starts during construction and writes to this member.
+  /// Therefore the member is declared before cancel_thread_.
   Clock::time_point cancel_time_;
   std::thread cancel_thread_;
 };

@@ -260,8 +260,9 @@ private:
     const Status status = read_guarded(context, file.path.toStdString(), data);
     if (!status.ok())
     {
-      // The file is the one that was saved, but cannot be read here. Do not open the session
-      // without its companions, because saving it would delete them.
+      // The checksum shows that the companion file has not changed since the session was saved, but
+      // this program cannot read it. Do not open the session without the companion: if the user
+      // then saved the session, the companion file would be deleted.
       throw SessionError(status.message);
     }
     return data;

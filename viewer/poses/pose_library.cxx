@@ -80,7 +80,7 @@ Status from_json(const Json& json, PoseLibrary& library)
   {
     std::string name;
     NamedPose pose;
-    JsonFields fields(entry, "a pose of the library");
+    JsonFields fields(entry, "a pose in the pose library");
     fields.read("name", name);
     const Json* handles = fields.member("handles", false);
     Status status = fields.status();

@@ -18,15 +18,18 @@ namespace bindpose
 {
 namespace
 {
-/// Distances of the gizmo's parts from its origin, in pixels, for axes of 80 pixels.
+/// Distances of the gizmo's parts from its origin, in pixels, for axes of 80 pixels. 0 means that
+/// the gizmo has no such part.
 struct Layout
 {
   double shaft; // end of an arrow's shaft, which begins at `gap`
-  double cone; // tip of an arrow's cone; 0: none
-  double plate; // coordinate of a plate's center on both axes; 0: none
-  double box; // center of a box; 0: none
-  double ring; // radius of the rings about the axes; 0: none
-  double view_ring; // radius of the ring that faces the camera; 0: none
+  double cone; // tip of an arrow's cone
+  /// Center of a plate, the small square that moves the handle in the plane of two axes. The number
+  /// is the coordinate of the center along each of these axes.
+  double plate;
+  double box; // center of a box
+  double ring; // radius of the rings about the axes
+  double view_ring; // radius of the ring that faces the camera
 };
 // One layout per GizmoKind, in the same order.
 constexpr Layout layouts[5] = { {}, { 74, 92, 33, 0, 0, 0 }, { 0, 0, 0, 0, 78, 96 },

@@ -21,8 +21,8 @@ enum class GizmoKind
 };
 
 /// The parts of the gizmo: arrows, plates, rings and boxes around a selected handle. The values
-/// equal the interaction states of the representation. In a group of three parts, the axis is the
-/// value minus the value of the first part.
+/// equal the interaction states of the representation. In a group of three parts, such as move_x to
+/// move_z, the index of a part's axis is its value minus the value of the first part.
 enum GizmoPart : int
 {
   no_part = 0,
@@ -61,13 +61,14 @@ constexpr GizmoPartWord gizmo_part_words[] = { { "move_x", move_x }, { "move_y",
 struct GizmoSetup
 {
   GizmoKind kind = GizmoKind::all;
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero(); ///< center of the gizmo, in world coordinates
   Eigen::Matrix3d frame = Eigen::Matrix3d::Identity(); ///< axes of the gizmo as columns
   bool only_moves = false; ///< true: the gizmo has no parts for rotating, scaling or stretching
   std::optional<Eigen::Vector3d> tail; ///< tail of a bone, whose head is the origin
   /// True: two twist rings, at head and tail; false: one ring in the middle.
   bool two_twist_rings = true;
-  double pixels = 80.0; ///< size in window pixels: distance of a scale box from the origin
+  /// Size in window pixels: distance of a scale box from the origin, for kind `scale`.
+  double pixels = 80.0;
   /// Colors of the x, y and z axes: red, green and blue, in shades that viewers with any type of
   /// color blindness can distinguish.
   Color axes[3] = { { 0.80, 0.15, 0.25 }, { 0.50, 0.80, 0.25 }, { 0.18, 0.43, 0.93 } };
@@ -85,8 +86,9 @@ struct GizmoMarks
 {
   int hovered = no_part;
   int active = no_part; ///< the dragged part; all other parts are left out
-  /// During a rotation, the ends of two lines that are drawn from the origin, in world coordinates:
-  /// the position at which the ring was grabbed, and the position to which the drag has rotated it.
+  /// During a rotation, two lines are drawn from the gizmo's center to its ring. These are their
+  /// ends on the ring, in world coordinates: first the position where the drag began, then the
+  /// position to which the drag has rotated it.
   std::optional<Eigen::Vector3d> spokes[2];
 };
 

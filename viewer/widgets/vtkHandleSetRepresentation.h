@@ -109,33 +109,35 @@ public:
   vtkTypeMacro(vtkHandleSetRepresentation, vtkWidgetRepresentation);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// The part under the mouse: the interaction state.
+  /// Values of the interaction state, which is the part under the mouse.
   enum InteractionStateType
   {
-    OUTSIDE = 0, ///< no handle
+    OUTSIDE = 0, ///< the mouse is on no handle
     ON_POINT = 1, ///< the ball of a point, cage vertex or region
     ON_HEAD = 2, ///< a bone's head
     ON_TAIL = 3, ///< a bone's tail
     ON_BODY = 4, ///< a bone between its ends
     // The states from MOVE_X to TWIST_TAIL are parts of the gizmo at the selected handle.
-    MOVE_X = 10, ///< MOVE_X, MOVE_Y and MOVE_Z: arrows along the axes
+    MOVE_X = 10, ///< MOVE_X, MOVE_Y and MOVE_Z: arrows that move the handle along an axis
     MOVE_Y,
     MOVE_Z,
     MOVE_YZ, ///< MOVE_YZ, MOVE_ZX and MOVE_XY: plates that move the handle in a plane of two axes
     MOVE_ZX,
     MOVE_XY,
-    TURN_X = 20, ///< TURN_X, TURN_Y and TURN_Z: rings about the axes
+    TURN_X = 20, ///< TURN_X, TURN_Y and TURN_Z: rings that rotate the handle about an axis
     TURN_Y,
     TURN_Z,
     TURN_VIEW, ///< ring that rotates the handle about the viewing direction
-    SCALE_X = 30, ///< SCALE_X, SCALE_Y and SCALE_Z: boxes on the axes
+    SCALE_X = 30, ///< SCALE_X, SCALE_Y and SCALE_Z: boxes that scale the handle along an axis
     SCALE_Y,
     SCALE_Z,
     SCALE_ALL, ///< gray box or ring that scales the handle uniformly
-    STRETCH = 40, ///< box beyond a bone's tail
-    TWIST_HEAD, ///< TWIST_HEAD and TWIST_TAIL: rings around a bone
+    STRETCH = 40, ///< box beyond a bone's tail that stretches the bone
+    TWIST_HEAD, ///< TWIST_HEAD and TWIST_TAIL: rings around a bone that twist the bone
     TWIST_TAIL,
-    PLACING = 50 ///< in an edit mode: a position at which a press would add something
+    /// In the modes ADD_POINTS, ADD_BONES and ADD_CAGE: a position at which a press would add
+    /// something.
+    PLACING = 50
   };
 
   /// The effect of the mouse on handles.

@@ -14,10 +14,11 @@ namespace bindpose
 /// Options of insert_handles(), which adds vertices to the mesh at the positions of the handles.
 struct HandleInsertionOptions
 {
-  /// Snapping range as a barycentric coordinate, range (0, 0.25). A sample is a point of a handle.
-  /// Its barycentric coordinates below `snap` are set to zero, which moves the sample to a vertex,
-  /// edge or face of the element. Smaller values keep handles closer to their specified positions;
-  /// larger values give better shaped elements. No sample moves by more than 3 * snap edge lengths.
+  /// Threshold of barycentric coordinates, range (0, 0.25). A sample is a point of a handle. If a
+  /// barycentric coordinate of a sample in its element is below `snap`, the coordinate is set to
+  /// zero, which moves the sample to a vertex, edge or face of the element. Smaller values keep
+  /// handles closer to their specified positions; larger values give better shaped elements. No
+  /// sample moves by more than 3 * snap edge lengths.
   double snap = 0.1;
   /// Do not change the mesh; instead, constrain the corners of the element that contains a sample.
   bool keep_mesh = false;
@@ -40,7 +41,7 @@ struct HandlePlacement
 /// A new vertex as a point in an element of the original mesh.
 struct InsertedVertex
 {
-  /// Original vertex ids; the last is -1 on surfaces.
+  /// Vertex ids of the element's corners. The fourth id is -1 if the element is a triangle.
   std::array<Index, 4> parents{ -1, -1, -1, -1 };
   std::array<double, 4> barycentric{ 0.0, 0.0, 0.0, 0.0 };
 };
@@ -69,8 +70,9 @@ struct HandleInsertion
   std::vector<std::string> warnings;
 };
 
-/// Extend labels to inserted vertices: an inserted vertex gets the label of the corners of its
-/// original element if they all have the same label, else 0.
+/// Extend labels to inserted vertices. Only the corners of the original element with a positive
+/// barycentric coordinate count: the inserted vertex gets their label if they all have the same
+/// label, else 0.
 std::vector<Index> extend_labels(const HandleInsertion& mesh, const std::vector<Index>& labels);
 
 /// Add vertices to the mesh at the positions of the handles. Without such a vertex, a weight of one

@@ -15,7 +15,8 @@ namespace bindpose
 struct CubeSamples
 {
   using Id = std::int32_t;
-  /// Integer coordinates of a sample in the sub-grid, over all cubes or within one cube.
+  /// Integer coordinates of a sample, either in the grid of the samples of all cubes or in the
+  /// sub-grid of one cube.
   using Sample = std::array<Id, 3>;
 
   static constexpr int samples_per_edge = 6; ///< number of samples along the edge of a cube

@@ -40,8 +40,9 @@ public:
   Status find_inside(ExecutionContext& context, const WindingNumber& winding, double threshold);
 
   Id count() const { return this->first_piece + static_cast<Id>(this->piece_tets_.size()); }
-  /// Return the integer coordinates, over all cubes, of sample s in cube
-  /// sampled_cubes[sampled_cube].
+  /// Return the coordinates of a sample in the integer grid of the samples of all cubes.
+  /// @param sampled_cube index in `sampled_cubes` of the cube that contains the sample.
+  /// @param s number of the sample within this cube.
   Sample global_coordinates(Id sampled_cube, int s) const
   {
     const Cube cube = DisphenoidLattice::cube_of(this->sampled_cubes[sampled_cube]);

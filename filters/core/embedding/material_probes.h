@@ -32,10 +32,11 @@ public:
     /// the inside, or if the triangle has no area.
     Vec3 normal;
   };
-  /// The atoms of one copy of a lattice node.
+  /// The atoms of one copy of a lattice node. The embedding makes a copy of a node for each
+  /// connected part of the material around the node.
   struct Side
   {
-    Id root; ///< identifies the copy (root of its union-find class)
+    Id root; ///< identifies this copy of the node (root of its union-find class)
     std::vector<End> ends; ///< one end per atom
   };
   /// Find the copies of one node that probes connect. For each connection, append the roots of the
@@ -56,8 +57,9 @@ private:
     std::vector<double>& cuts) const;
   /// Report whether the segment between two ends is completely in the material. On a triangle, the
   /// winding number is the mean of the values on both sides, so rounding errors would decide the
-  /// test. Therefore, if the segment lies in the plane of the triangle at an end, test two copies
-  /// of the segment, shifted by 1e-6 cube edges to either side, and report whether one passes.
+  /// test. Therefore, if the segment lies in the plane of the triangle at an end, test two other
+  /// segments instead: the same segment shifted by 1e-6 cube edges to either side of the plane.
+  /// Report whether at least one of them is completely in the material.
   bool connects(const End& from, const End& to, const std::vector<Id>& triangles,
     std::vector<double>& cuts) const;
   /// Test the 12 shortest segments between two sets of ends. Report whether one of them is

@@ -95,9 +95,11 @@ private:
   std::vector<char> is_free_;
   int layers_ = 0;
   SparseMatrix stiffness_; ///< stiffness K of the triangles in use
-  Eigen::VectorXd mass_; ///< lumped mass M of the triangles in use, scaled to mean 1
-  Eigen::VectorXd inverse_mass_; ///< inverse of mass_; 0 where the Laplacian is zero
-  double unit_ = 1.0; ///< mass of a vertex whose entry in mass_ is 1
+  /// Lumped mass M of the triangles in use, in units of unit_. The mean of the positive entries is
+  /// 1; vertices that belong to no triangle in use have mass 0.
+  Eigen::VectorXd mass_;
+  Eigen::VectorXd inverse_mass_; ///< inverse of mass_; 0 where mass_ or the Laplacian is zero
+  double unit_ = 1.0; ///< unit of mass_: the mean lumped mass of the vertices of triangles in use
   SparseMatrix matrix_; ///< K (M^-1 K)^(k-1)
   SparseMatrix edge_mass_, outside_flux_, inside_flux_;
   ConstrainedStiffness system_;

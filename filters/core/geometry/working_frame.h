@@ -36,7 +36,8 @@ public:
   static Status choose(
     PointsView points, const Box& box, const std::string& subject, WorkingFrame& frame);
 
-  /// Check a mesh by check_mesh(), and choose the frame of the points that its elements use.
+  /// Check a mesh by check_mesh(). Then choose the frame from the bounding box of the elements;
+  /// points that no element uses are ignored.
   static Status choose(
     PointsView points, TrianglesView triangles, const std::string& subject, WorkingFrame& frame);
   static Status choose(

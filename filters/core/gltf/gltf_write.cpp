@@ -213,8 +213,10 @@ std::vector<Index> parents_first(const std::vector<GltfJoint>& joints)
   return order;
 }
 
-/// Return local transforms that move the joints to the joint-to-scene maps `exact_maps`, as closely
-/// as nodes can represent these maps. Set `stored_maps` to the resulting joint-to-scene maps.
+/// Compute the local transforms of the joints' glTF nodes for the joint-to-scene maps `exact_maps`.
+/// A node stores a translation, a rotation and scales, so it can only approximate a map with shear.
+/// Set `stored_maps` to the joint-to-scene maps of the nodes.
+/// @return one local transform per joint.
 std::vector<Trs> local_maps(
   const GltfSkin& skin, const Transforms& exact_maps, Transforms& stored_maps)
 {

@@ -50,8 +50,9 @@ struct CdtOptions
   HandleElements handles;
 };
 
-/// Return the failure for tets whose volume differs from that of the enclosed region. The message
-/// is EnclosedRegion::relative_volume().
+/// Return the failure for tets whose total volume differs from the volume of the enclosed region.
+/// The message is EnclosedRegion::relative_volume(volume), which compares the two volumes.
+/// @param volume total volume of the tets.
 Status wrong_volume_error(double volume, const EnclosedRegion& inside);
 
 /// Constrained Delaunay tets of the convex hull of a surface, reduced to the tets that the

@@ -161,8 +161,9 @@ Status CdtTets::find_positions(FillState& inside)
     minimum_tets / tets_per_vertex, inside);
 }
 
-/// Split boundary edges longer than `long_edge`, until there are `maximum_tets` tets. Then find up
-/// to about `most` positions inside; the target edge length there is at most `length`.
+/// Split boundary edges longer than `long_edge`; stop if there are `maximum_tets` tets. Then find
+/// positions inside. The target edge length there is nowhere above `length`. If there are more than
+/// about `most` positions, the shorter target lengths are increased (see inner_points()).
 Status CdtTets::find_even_positions(
   double length, double long_edge, Index maximum_tets, Index most, FillState& inside)
 {

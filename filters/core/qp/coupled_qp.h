@@ -23,8 +23,12 @@ struct CoupledSolution
   int inner_iterations = 0; ///< iterations of conjugate gradients
 };
 
-/// Minimize the sum of 1/2 w_j' Q w_j over all columns j. The constraints are l <= w <= u, the
-/// given values of fixed and pinned vertices, and rows that sum to one.
+/// Minimize the sum of 1/2 w_j' Q w_j over all columns j, where w_j has one entry per vertex. The
+/// constraints are:
+/// - l <= w_j <= u for each column;
+/// - fixed vertices have given values in every column;
+/// - vertices that are pinned in column j have given values in this column only;
+/// - each row, which contains the weights of one vertex, sums to one.
 ///
 /// The method is a primal-dual interior-point method that starts from nearly optimal rows. Each
 /// iteration computes one factorization per column, as in BoxQp, and finds the multipliers of the

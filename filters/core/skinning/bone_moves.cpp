@@ -2,15 +2,16 @@
 // vertices.
 //
 // At a point (x, y, z) of a bone's frame the endpoint weight is e = z / length, clamped to [0, 1].
-// The angle of the twist is a = (1 - e) head + e tail, where `head` and `tail` are the twists at
-// the ends. `vector` points from the head to the tail. Twist and stretch displace the point by
+// The twist angle is a = (1 - e) head + e tail, where `head` and `tail` are the twists at the ends.
+// `vector` points from the head to the tail. Twist and stretch displace the point by
 //
-//     ( -sin a y - (1 - cos a) x,  sin a x - (1 - cos a) y,  0 )  +  e (stretch - 1) vector.
+//   ( -sin(a) y - (1 - cos(a)) x,  sin(a) x - (1 - cos(a)) y,  0 )  +  e (stretch - 1) vector.
 //
-// With s = sin(a / 2) and c = cos(a / 2), sin a = 2 s c and 1 - cos a = 2 s^2. These products are
-// exactly zero without a twist. Subtracting a whole turn from a changes the signs of both s and c,
-// but neither of the products. Therefore a is reduced to an angle of at most half a turn. The power
-// series are evaluated at a / 4, which is at most an eighth of a turn, so few terms suffice.
+// With s = sin(a / 2) and c = cos(a / 2), sin(a) = 2 s c and 1 - cos(a) = 2 s^2. The products s c
+// and s^2 are exactly zero without a twist. If a whole turn is subtracted from the angle a, both s
+// and c change their signs, but s c and s^2 do not change. Therefore the angle a is first reduced
+// to the range from minus half a turn to half a turn. The power series are evaluated at a / 4,
+// which is at most an eighth of a turn, so few terms suffice.
 #include "skinning/bone_moves.h"
 
 #include "base/packs.h"
@@ -70,7 +71,7 @@ BINDPOSE_ALWAYS_INLINE void sum_series(const Pack& square, const Pack& fourth, P
   sum = (even * fourth + factors[0]) + odd * square;
 }
 
-/// Compute result = a (x, y, z, 1).
+/// Compute the dot product of the four numbers `a` and (x, y, z, 1), where `point` is (x, y, z).
 template <typename Scalar, typename Pack>
 BINDPOSE_ALWAYS_INLINE void coordinate(const Scalar* a, const Pack (&point)[3], Pack& result)
 {
@@ -133,7 +134,7 @@ BINDPOSE_ALWAYS_INLINE void add_tile_moves(const std::int32_t* columns, const Sc
         sum_series<0, Scalar>(square, fourth, cosine);
         sine *= part;
         // With s = sin(a / 2) and c = cos(a / 2), compute half_s = s / 2 and c. Then
-        // (sin a) / 4 = half_s c and (1 - cos a) / 4 = 2 half_s^2.
+        // sin(a) / 4 = half_s c and (1 - cos(a)) / 4 = 2 half_s^2.
         const Pack half_s = sine * cosine, c = one - (sine + sine) * sine;
         const Pack half_sw = half_s * w;
         const Pack sin_w = half_sw * c, versine_w = half_sw * (half_s + half_s);

@@ -143,14 +143,17 @@ SplitMap split(const Eigen::Matrix3d& linear)
   map.shear = map.rotation.transpose() * linear - Eigen::Matrix3d::Identity();
   if (map.shear.norm() <= 1e-14)
   {
+    // The map itself is a rotation. Return it unchanged, because the fitted rotation has rounding
+    // errors.
     map.shear.setZero();
-    map.rotation = linear; // the map is already a rotation; the fitted one has rounding errors
+    map.rotation = linear;
   }
   return map;
 }
 
-/// Set the signs that align the quaternion of each handle to the quaternion of each reference
-/// handle. `quaternions.signs` is empty if no sign is negative.
+/// Set `quaternions.signs`, one sign for each pair of a handle and a reference handle. The sign is
+/// negative if the dot product of their quaternions is negative; the blending then negates the
+/// quaternion of the handle. `signs` is empty if no sign is negative.
 template <typename Scalar>
 void set_signs(const std::vector<DualQuaternion>& motions, BlendValues<Scalar, 8>& quaternions)
 {

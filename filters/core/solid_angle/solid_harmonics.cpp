@@ -1,6 +1,6 @@
-// Recurrences and translations of solid harmonics (Dehnen 2014, section A). The innermost loop of
-// each function runs over the eight lanes, which are a vector type of the compiler. No operation
-// mixes lanes.
+// Recurrences and translations of solid harmonics (Dehnen 2014, section A). Each function processes
+// eight expansions in parallel. HarmonicPack is a vector type of the compiler; each of its eight
+// lanes contains a number of one expansion. No operation mixes lanes.
 //
 // Regular harmonics U and irregular ones T:
 //   U(n, n) = (x + iy) / (2n) U(n-1, n-1)

@@ -16,7 +16,8 @@ namespace
 /// Largest norm of the sum of the area vectors of a closed patch, relative to the patch's area.
 constexpr double maximum_opening = 0.25;
 
-/// All copies of the triangle with the corners a < b < c, half of them with each orientation.
+/// All triangles of the surface with the same three corners a < b < c. They are called the copies
+/// of one triangle. Half of them have the orientation a, b, c, the others a, c, b.
 struct Copies
 {
   Index forward = -1; ///< id of the first copy with the orientation a, b, c
@@ -24,7 +25,8 @@ struct Copies
   std::vector<Index> all; ///< ids of all copies
 };
 
-/// The triangles whose copies cancel (see back_sides()), one entry per triangle, sorted by corners.
+/// The triangles whose copies cancel (see back_sides()), sorted by corners. There is one entry per
+/// triangle, not one per copy.
 struct CancelingTriangles
 {
   std::vector<Copies> copies;

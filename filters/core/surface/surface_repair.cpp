@@ -6,9 +6,9 @@
 // triangles of a patch into two classes of opposite orientation, and the class with the smaller
 // area is flipped. The second stage works on whole shells: components, or patches that are closed
 // by themselves (solids that touch in an edge or a vertex). A closed shell with negative volume
-// that is in no other shell is inside out. Such a shell is flipped together with everything inside
-// the shell. A cavity (an inner shell whose orientation is opposite to that of the outer shell)
-// therefore remains a cavity.
+// that is in no other closed shell is inside out. Such a shell is flipped together with all closed
+// shells inside it. A cavity (an inner shell whose orientation is opposite to that of the outer
+// shell) therefore remains a cavity.
 #include "surface/surface_repair.h"
 
 #include "base/constants.h"
@@ -157,8 +157,8 @@ std::vector<Shell> find_shells(
 {
   const std::vector<TriangleSide> sides = sides_by_edge(triangles);
   const std::vector<Index> patch = patches_of(sides, triangles.rows());
-  // Test whether each group (a patch or shell) is closed: at every edge, equally many triangles of
-  // the group use the edge in both directions.
+  // Test whether each group (a patch or shell) is closed. A group is closed if, at every edge, as
+  // many triangles of the group use the edge in one direction as in the other.
   const auto close = [&](const auto& group_of, std::vector<char>& closed)
   {
     std::vector<std::pair<Index, int>> directions;
@@ -253,9 +253,9 @@ double winding_of_shell(
   return half_angles / two_pi;
 }
 
-/// Return test points of a shell: the centers of some of its triangles. The shell is inside another
-/// shell if most of these points are inside the other shell. Several points are needed because
-/// winding numbers are not integers where shells touch.
+/// Return test points of a shell: the centers of some of its triangles. The shell counts as inside
+/// another shell if most of these points are inside the other shell. Several points are needed
+/// because winding numbers are not integers where shells touch.
 std::vector<Vec3> test_points_of(
   const Points& points, const Triangles& triangles, const Shell& shell)
 {
@@ -396,15 +396,16 @@ private:
   std::vector<Index> ids_;
 };
 
-/// Shells that are inside out (closed, with negative volume, in no other closed shell), and the
-/// shells to flip.
+/// Shells that are inside out, and the shells that a repair flips. A closed shell with negative
+/// volume is inside out if it is in no other closed shell. It is flipped together with the closed
+/// shells inside it, whatever the signs of their volumes. Shells with almost no volume are ignored.
 struct InwardShells
 {
-  std::vector<Index> roots; ///< shells that are inside out
-  std::vector<Index> shells_to_flip; ///< the shells in `roots` and the closed shells inside them
+  std::vector<Index> roots; ///< only the shells that are inside out
+  std::vector<Index> shells_to_flip; ///< the shells in `roots` and all closed shells inside them
 };
 
-/// Find the shells that are inside out. Return false if canceled.
+/// Find the shells that are inside out, and the shells to flip. Return false if canceled.
 bool inward_shells(ExecutionContext& context, const Points& points, const Triangles& triangles,
   const std::vector<Shell>& shells, InwardShells& result)
 {

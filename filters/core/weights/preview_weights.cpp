@@ -1,5 +1,5 @@
-// Biharmonic weights from a factor of the Laplacian K (see preview_weights.h). Subscript f is for
-// free vertices, b for fixed vertices. With D = M^-1 and Q = K D K:
+// Biharmonic weights from a factor of the Laplacian K (see preview_weights.h). M is the lumped mass
+// matrix. Subscript f is for free vertices, b for fixed vertices. With D = M^-1 and Q = K D K:
 //
 //   Q_ff = K_ff D_f K_ff + U D_b U',  U = K_fb        Q_fb = K_ff D_f U + U D_b K_bb
 //
@@ -155,8 +155,10 @@ private:
       return k * (inverse.asDiagonal() * (k * p)) +
         u * (mass.cwiseInverse().asDiagonal() * (u.transpose() * p));
     };
-    // Solve Q_ff x = -Q_fb e, beginning with x = start. In the residual r = -Q_fb e - Q_ff x, the
-    // terms K_ff D_f U e and K_ff D_f K_ff x cancel, because K_ff start = -U e.
+    // Solve Q_ff x = -Q_fb e, beginning with x = start. With the formulas for Q_ff and Q_fb at the
+    // top of this file, the residual is
+    //   r = -Q_fb e - Q_ff x = -K_ff D_f (U e + K_ff x) - U D_b (K_bb e + U' x).
+    // At x = start, the first term is zero, because K_ff start = -U e.
     x = start;
     Eigen::MatrixXd r =
       -(u * (mass.cwiseInverse().asDiagonal() * (u.transpose() * start))) - u * fixed_flux;

@@ -1,9 +1,9 @@
-// Weights of a surface, solved in one of several domains (see surface_weights.h). For the domain
-// volume, the steps are: fill the inside with tets, insert the handles, run the weight method, and
-// transfer the weights to the surface. For the domain embedding, the same steps are done on
+// Weights of a surface, solved in one of several domains (see surface_weights.h). If the domain is
+// `volume`, the steps are: fill the inside with tets, insert the handles, run the weight method,
+// and transfer the weights to the surface. If the domain is `embedding`, the same steps are done on
 // lattices that contain the surface, and the transferred weights are smoothed. If a domain fails
-// and another domain replaces it, the report contains the status of the failed domain as the
-// reason.
+// and the embedding replaces it, the report contains the status and the message of the failed
+// domain.
 #include "weights/surface_weights.h"
 
 #include "base/range_check.h"
@@ -37,8 +37,8 @@ constexpr Index first_lattice_tets = 4500;
 /// Target number of tets of the third lattice. The resolution of the third lattice is limited to
 /// 5/4 … 3/2 times the resolution of the second lattice.
 constexpr double third_lattice_tets = 36000.0;
-/// Approximate number of tets of the lattice if SurfaceWeightsOptions::check_resolution is false,
-/// so that only one lattice is made.
+/// Approximate number of tets of the only lattice that is made if
+/// SurfaceWeightsOptions::check_resolution is false.
 constexpr Index single_lattice_tets = 12000;
 constexpr int maximum_lattices = 3;
 /// Progress after the work on each lattice, as a fraction of all work. Each lattice takes about

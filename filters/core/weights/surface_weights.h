@@ -24,8 +24,8 @@ enum class WeightsDomain : int
   /// auto).
   volume = 2,
   embedding = 3, ///< Solve in a lattice that contains the surface (tetrahedralize, method embed).
-  /// Solve in tets of a closed cage of faces around the surface. For a flat shape, solve in
-  /// triangles of a closed cage of edges around the shape.
+  /// Solve inside a closed cage around the surface. The cage consists of faces and is filled with
+  /// tets. For a flat shape, the cage consists of edges and is filled with triangles.
   cage = 4
 };
 
@@ -42,7 +42,7 @@ struct SurfaceWeights
 {
   Weights weights; ///< #V x #handles at the surface's points, rows sum to one
   /// The weights before rows are divided by their sums; empty unless
-  /// SurfaceWeightsOptions::keep_raw.
+  /// SurfaceWeightsOptions::keep_raw is set.
   Weights raw;
   WeightsDomain domain = WeightsDomain::surface; ///< the domain that was used
   /// The tets before handles were inserted. Empty for domain surface and for a cage of edges.
@@ -72,8 +72,8 @@ struct SurfaceWeightsOptions
   bool keep_raw = false;
   /// Handle geometry (such as bones) that becomes part of the volume's tets.
   HandleElements handle_elements;
-  /// If set, this function is called once, before the method runs. Its argument is the weights of
-  /// preview_weights() at the surface's points. The call is made in the caller's thread.
+  /// If set, this function is called once, before the method runs, on the caller's thread. Its
+  /// argument contains the weights of preview_weights() at the surface's points.
   std::function<void(const Weights&)> preview;
 };
 

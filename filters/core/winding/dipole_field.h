@@ -15,11 +15,12 @@ namespace bindpose
 /// expansions and error estimates after Dehnen, A fast multipole method for stellar dynamics,
 /// 2014).
 ///
-/// The build divides space into cells. A cell stores one polynomial for the triangles far from it
-/// and a list of the triangles near it. The solid angles of the near triangles are summed. The
-/// cells are fixed after the build, so the value at a point does not depend on which other points
-/// are evaluated. A value costs a descent in the tree, a polynomial, and 1-5 ns per near triangle.
-/// Outside the cells, a value is the sum of a few multipoles.
+/// The build divides a cube around the triangles and the region of the query points into the cells
+/// of an octree. A leaf cell stores one polynomial for the triangles far from it and a list of the
+/// triangles near it. The solid angles of the near triangles are summed. The cells are fixed after
+/// the build, so the value at a point does not depend on which other points are evaluated. A value
+/// costs a descent in the octree, a polynomial, and 1-5 ns per near triangle. Outside the cube, a
+/// value is the sum of a few multipoles.
 ///
 /// Triangles that touch a point contribute 0 (the principal value).
 class DipoleField
@@ -41,8 +42,8 @@ public:
     int order = 0;
     /// Number of points that will be evaluated; 0: very many. Most of them should be in `region`.
     /// The build splits a cell only if the split takes less time than it saves in the evaluation of
-    /// these points. For up to a few thousand points no cells are made, and every value is the sum
-    /// over all triangles.
+    /// these points. For up to a few thousand points the cube is not divided, and every value is
+    /// the sum over all triangles.
     Index expected_points = 0;
   };
 
@@ -94,11 +95,12 @@ public:
 private:
   using Id = std::int32_t;
   static constexpr int finest_level = 20;
-  /// A group of triangles, evaluated as multipoles at points outside the cells.
+  /// A group of triangles. Its multipoles are used at points outside the cube of the cells.
   struct OuterNode
   {
     Vec3 center = Vec3::Zero();
-    double bound = 0.0; ///< error of the multipoles at distance r: bound / r^(order + 3)
+    /// The error of the multipoles at distance r is bound / ((1 - radius / r) r^(order + 3)).
+    double bound = 0.0;
     double radius = 0.0;
     /// Index of the node after this node's descendants; the first child is the next node.
     Id skip = 0;
@@ -111,8 +113,8 @@ private:
   struct Leaf
   {
     Id id;
-    /// Number of bits. If the CellCoordinates of any cell in the leaf are shifted right by this
-    /// number, they become the coordinates of the leaf on its level of the octree.
+    /// Number of bits. CellCoordinates in the leaf, shifted right by this number of bits, are the
+    /// coordinates of the leaf on its level of the octree.
     int shift;
     double inverse; ///< 2 divided by the edge length of the leaf
     Vec3 center;
@@ -134,7 +136,7 @@ private:
   double exact_sum(const Vec3& point) const;
   double outer_sum(const Vec3& point, bool& on_surface) const;
   /// Call use_moments(moments, offset) for nodes that are far from the point, and all(run) for the
-  /// triangles of the other nodes.
+  /// triangles of the leaf nodes that are not far.
   template <typename UseMoments, typename All>
   void visit_outer(const Vec3& point, const UseMoments& use_moments, const All& all) const;
 
@@ -142,7 +144,7 @@ private:
   std::vector<Vec3> extra_points_; ///< vertices of cut triangles; their ids follow those of points_
   std::vector<std::array<Id, 3>> ids_; ///< vertex ids of every lane of every block
   double touch_tolerance_ = 0.0;
-  double outer_threshold_ = 0.0; ///< largest allowed error of a multipole outside the cells
+  double outer_threshold_ = 0.0; ///< largest allowed error of a multipole outside the cube
   double measured_error_ = 0.0;
   int order_ = 0;
   bool double_precision_ = false; ///< whether blocks and cells use doubles instead of floats
@@ -154,8 +156,10 @@ private:
   std::vector<float> float_locals_;
   std::vector<double> double_locals_;
 
-  // Octree below a lattice of top cells. `cells_` has one entry per cell. For a leaf the entry is
-  // ~(index of the leaf), for any other cell it is the index of the first child of the cell.
+  // The cube with the lower corner `lower_` and the edge length `size_` is divided into a grid of
+  // 2^top_level_ top cells per axis. Each top cell is the root of an octree. `cells_` has one entry
+  // per cell, beginning with the top cells. For a leaf the entry is ~(index of the leaf). For any
+  // other cell it is the index of the first child of the cell.
   Vec3 lower_ = Vec3::Zero();
   double size_ = 0.0;
   int top_level_ = 0;

@@ -1,8 +1,8 @@
 // Fast multipole evaluation of the winding number of a point cloud (after Barill et al. 2018), with
 // an error bound for every value.
 //
-// Each point is a dipole. Its contribution at q is the derivative of the potential of a charge, -m
-// . grad (1 / |p - q|) with m = area n / (4 pi). Points are sorted into a tree. Each box of the
+// Each point p is a dipole. Its contribution at q is the derivative of the potential of a charge,
+// -m . grad (1 / |p - q|), with m = area n / (4 pi). Points are sorted into a tree. Each box of the
 // tree has multipoles about its center: sums of the derivatives of the regular solid harmonics
 // along m. A query point descends the tree. Boxes that are far enough away contribute their
 // multipoles; the points of near leaves are summed one by one.
@@ -414,8 +414,9 @@ PointCloudWindingNumber& PointCloudWindingNumber::operator=(
 // ---- Building ----------------------------------------------------------------------------------
 
 /// Call far(group, from, bits) for each group that has far boxes. `bits` is the bit mask of these
-/// boxes, and `from` contains the positions of p relative to the centers. Call near(first block,
-/// block count) for near leaves. Return the sum of the error bounds of the multipoles.
+/// boxes, and `from` contains the positions of p relative to the centers of the group's eight
+/// boxes. Call near(first block, block count) for each near leaf. Return the sum of the error
+/// bounds of the multipoles.
 template <typename Far, typename Near>
 double PointCloudWindingNumber::Impl::visit(
   const Vec3& p, double squared_stretch, const Far& far, const Near& near) const

@@ -69,7 +69,8 @@ private:
   vtkNew<vtkPolyData> PlacedHandles; // edited by the widget
   std::string HandlesText;
   std::string TextMessage;
-  // Modification time of PlacedHandles when HandlesText was set or written.
+  // Modification time of PlacedHandles when HandlesText and PlacedHandles last agreed. If
+  // PlacedHandles has a different time, GetHandlesText() formats the text again.
   vtkMTimeType FormattedTime = 0;
 };
 

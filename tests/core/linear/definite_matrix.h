@@ -7,7 +7,8 @@
 namespace bindpose::test
 {
 
-/// Return the biharmonic matrix of a box of n^3 cells of tets. `shift` makes it positive definite.
+/// Return the biharmonic matrix of a box that is divided into n x n x n cells, each of which is
+/// divided into tets. `shift` is added to the diagonal, which makes the matrix positive definite.
 inline SparseMatrix definite_matrix(int n, double shift)
 {
   const TetMesh box = tet_box(n, n, n);

@@ -132,7 +132,7 @@ TEST(PoseFile, AMissingVersionWarnsIfChildrenWouldFollow)
     return status.warnings;
   };
   const std::string upper = R"("upper": {"scale": 2})";
-  // A sequence of poses also causes only one warning.
+  // There is exactly one warning for a single pose, and also for a sequence of poses.
   ASSERT_EQ(warnings("{\"handles\": {" + upper + "}}").size(), 1u);
   EXPECT_THAT(warnings("{\"handles\": {" + upper + "}}")[0], HasSubstr("\"version\": 2"));
   EXPECT_EQ(
@@ -160,8 +160,8 @@ TEST(PoseFile, ChildrenFollowTheirParents)
   pose = read_version_2(upper + R"(, "fore": {"rotate": {"axis": [0, 0, 1], "degrees": 90}})");
   EXPECT_LT((apply(pose[1].transform, Vec3(1, 0, 0)) - Vec3(0, 1, 0)).norm(), 1e-15);
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(-1, 1, 0)).norm(), 1e-15);
-  // In world space the child does not follow its parent. The file may contain a transform of the
-  // child or only a mode.
+  // In world space the child does not follow its parent. This is true if the file contains a
+  // transform of the child, and also if it contains only the child's mode.
   pose = read_version_2(
     upper + R"(, "fore": {"space": "world", "rotate": {"axis": [0, 0, 1], "degrees": 90}})");
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(1, 1, 0)).norm(), 1e-15);

@@ -1,6 +1,7 @@
-// Layout of the window: it fits a small screen, bars cover the view instead of moving it, and the
-// timeline appears with the first key frame. Other tests choose the domain of a bind and compute
-// winding numbers in the window.
+// Layout of the window: all its parts fit on a small screen. Bars with messages are drawn over the
+// 3D view and neither move nor resize it. The timeline is hidden until the first key frame is set
+// or the user shows it. Two more tests operate controls of the window: one chooses the domain in
+// which a bind solves the weights, the other computes the winding numbers of the surface on a grid.
 #include "window_test.h"
 
 #include "app/handles/side_panel.h"

@@ -546,8 +546,8 @@ QString TourPlayer::check(const TourStep& step)
         .arg(QString::fromStdString(step.expected_text));
     }
     expected = earlier_values[step.text];
-    reference_text =
-      QString(" as at the screenshot '%1'").arg(QString::fromStdString(step.expected_text));
+    reference_text = QString(" as it was when the screenshot '%1' was taken")
+                       .arg(QString::fromStdString(step.expected_text));
   }
   if (step.relation == TourRelation::at_least || step.relation == TourRelation::at_most)
   {
@@ -566,7 +566,7 @@ QString TourPlayer::check(const TourStep& step)
   }
   const QString tolerance_text =
     step.tolerance > 0.0 ? QString(" within %1").arg(step.tolerance) : QString();
-  return QString("the value is %1, expected %2%3%4")
+  return QString("the value is %1, expected %2%4%3")
     .arg(json_text(*found), json_text(expected), reference_text, tolerance_text);
 }
 

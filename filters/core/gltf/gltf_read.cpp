@@ -1,17 +1,13 @@
-// Reader of skinned meshes in glTF files (see gltf_skin.h). tinygltf parses the file. It reads
-// buffers through a callback and reads no images. Its output is not trusted: every index, count and
-// offset is checked before a value is read from a buffer.
+// Reader of skinned meshes in glTF files (see gltf_skin.h): joints, meshes, weights, and the first
+// animation of a joint.
 #include "gltf/gltf_skin.h"
 
 #include "base/memory.h"
-#include "gltf/gltf_transform.h"
-#include "gltf/tiny_gltf.h"
-#include "io/json_depth.h"
+#include "gltf/gltf_model.h"
 #include "io/text_scanner.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <map>
@@ -26,473 +22,6 @@ constexpr Index maximum_frames = 100000;
 constexpr double frames_per_second = 24.0; // frame rate if the keys are not evenly spaced
 
 using Transforms = std::vector<Eigen::Affine3d>;
-
-/// Exception for an error in the file. The message of the status is the file's path followed by
-/// `sentence`.
-struct GltfError : std::exception
-{
-  explicit GltfError(std::string text) : sentence(std::move(text)) {}
-  const char* what() const noexcept override { return this->sentence.c_str(); }
-  std::string sentence;
-};
-
-// ---- Parsing -----------------------------------------------------------------------------------
-
-/// The buffer files to which a glTF file refers.
-struct BufferFiles
-{
-  std::string folder; ///< the folder of the glTF file
-  std::vector<std::string> paths; ///< the files that were read
-};
-
-/// Report whether a path is a file in the folder of the glTF file or below it; links are followed.
-/// Other files are refused, because the glTF file is untrusted.
-bool is_buffer_file(const std::string& path, void* files)
-{
-  std::error_code error;
-  const auto file = std::filesystem::canonical(path, error);
-  if (error || !std::filesystem::is_regular_file(file, error))
-  {
-    return false;
-  }
-  const auto root = std::filesystem::canonical(static_cast<BufferFiles*>(files)->folder, error);
-  return !error &&
-    std::mismatch(root.begin(), root.end(), file.begin(), file.end()).first == root.end();
-}
-
-std::string keep_path(const std::string& path, void*)
-{
-  return path;
-}
-
-bool read_bytes(
-  std::vector<unsigned char>* bytes, std::string* reason, const std::string& path, void* files)
-{
-  static_cast<BufferFiles*>(files)->paths.push_back(path);
-  std::string content;
-  const Status status = read_file(path, content);
-  bytes->assign(content.begin(), content.end());
-  *reason = status.message;
-  return status.ok();
-}
-
-bool ignore_image(
-  tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int, void*)
-{
-  return true;
-}
-
-tinygltf::Model parse(const std::string& content, BufferFiles& files)
-{
-  const bool binary = content.compare(0, 4, "glTF") == 0;
-  if (content.size() > 0xffffffffULL)
-  {
-    throw GltfError("the file is larger than 4 GB, which is not supported");
-  }
-  std::string_view text(content);
-  if (binary)
-  {
-    std::uint32_t length = 0;
-    if (content.size() >= 20)
-    {
-      std::memcpy(&length, content.data() + 12, sizeof(length));
-    }
-    text = text.substr(std::min<std::size_t>(20, text.size()), length);
-  }
-  const Status depth = check_json_depth(text);
-  if (!depth.ok())
-  {
-    throw GltfError("the file is not valid: " + depth.message);
-  }
-  tinygltf::Model model;
-  tinygltf::TinyGLTF parser;
-  parser.SetImageLoader(ignore_image, nullptr);
-  std::string errors;
-  std::string warnings;
-  const auto size = static_cast<unsigned int>(content.size());
-  parser.SetFsCallbacks({ is_buffer_file, keep_path, read_bytes, nullptr, &files });
-  bool parsed = false;
-  try
-  {
-    parsed = binary
-      ? parser.LoadBinaryFromMemory(&model, &errors, &warnings,
-          reinterpret_cast<const unsigned char*>(content.data()), size, files.folder)
-      : parser.LoadASCIIFromString(&model, &errors, &warnings, content.data(), size, files.folder);
-  }
-  catch (const std::bad_alloc&)
-  {
-    throw;
-  }
-  catch (const std::exception& error) // thrown for JSON values of a wrong type
-  {
-    errors = error.what();
-  }
-  if (!parsed)
-  {
-    const std::string first = errors.substr(0, errors.find('\n')).substr(0, 200);
-    throw GltfError(first.empty() ? "not a glTF file" : "the file is not valid: " + first);
-  }
-  if (model.asset.version.compare(0, 2, "2.") != 0)
-  {
-    throw GltfError(
-      "glTF " + model.asset.version.substr(0, 20) + " is not supported; expected 2.0");
-  }
-  for (const std::string& extension : model.extensionsRequired)
-  {
-    // Accept extensions for materials and textures. All other extensions can change the geometry of
-    // a mesh or a node.
-    if (extension.compare(0, 14, "KHR_materials_") != 0 &&
-      extension.compare(0, 12, "KHR_texture_") != 0)
-    {
-      throw GltfError("the required extension " + extension.substr(0, 100) + " is not supported");
-    }
-  }
-  return model;
-}
-
-template <typename Element>
-const Element& at(const std::vector<Element>& list, int id, const char* item_name)
-{
-  if (id < 0 || static_cast<std::size_t>(id) >= list.size())
-  {
-    throw GltfError(std::string(item_name) + " " + std::to_string(id) +
-      " does not exist; the file has " + std::to_string(list.size()));
-  }
-  return list[static_cast<std::size_t>(id)];
-}
-
-// ---- Accessors ---------------------------------------------------------------------------------
-
-using Numbers = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-template <typename T>
-double number_at(const unsigned char* bytes)
-{
-  T value;
-  std::memcpy(&value, bytes, sizeof(T));
-  return static_cast<double>(value);
-}
-
-double component_at(const unsigned char* bytes, int type)
-{
-  switch (type)
-  {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-      return number_at<std::int8_t>(bytes);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return number_at<std::uint8_t>(bytes);
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-      return number_at<std::int16_t>(bytes);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return number_at<std::uint16_t>(bytes);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-      return number_at<std::uint32_t>(bytes);
-    default:
-      return number_at<float>(bytes);
-  }
-}
-
-std::size_t component_size(int type)
-{
-  switch (type)
-  {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return 1;
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return 2;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-    case TINYGLTF_COMPONENT_TYPE_FLOAT:
-      return 4;
-    default:
-      throw GltfError("an accessor has an unknown component type");
-  }
-}
-
-/// Return the divisor of normalized integers: the largest value of the component type.
-double normalization_divisor(int type)
-{
-  switch (type)
-  {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-      return 127.0;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return 255.0;
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-      return 32767.0;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return 65535.0;
-    default:
-      return 1.0;
-  }
-}
-
-class Accessors
-{
-public:
-  Accessors(const tinygltf::Model& model, std::size_t file_size) : model_(model)
-  {
-    for (const tinygltf::Buffer& buffer : model.buffers)
-    {
-      this->bytes_ += buffer.data.size();
-    }
-    this->bytes_ = std::max(this->bytes_, file_size);
-  }
-
-  /// Read all values of an accessor, one element per row.
-  /// @param type number of components, as a constant of tinygltf.
-  /// @param item_name name of the values in error messages.
-  Numbers read(int id, int type, const char* item_name) const
-  {
-    const tinygltf::Accessor& accessor = at(this->model_.accessors, id, "accessor");
-    if (accessor.type != type)
-    {
-      throw GltfError(std::string(item_name) + ": unexpected number of components");
-    }
-    const int columns = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type));
-    const std::size_t size = component_size(accessor.componentType);
-    // A sparse accessor stores no bytes for zeros. As a sanity check, the number of its elements
-    // must not exceed the number of bytes in the file.
-    if (accessor.count == 0 || accessor.count > this->bytes_)
-    {
-      throw GltfError(std::string(item_name) + ": the number of elements is " +
-        std::to_string(accessor.count) + "; it must be at least 1 and fit into the file");
-    }
-    const auto count = static_cast<Index>(accessor.count);
-    if (accessor.bufferView < 0 && !accessor.sparse.isSparse)
-    {
-      throw GltfError(std::string(item_name) + ": no data");
-    }
-    Numbers numbers;
-    if (accessor.bufferView >= 0)
-    {
-      const View view = this->view(
-        accessor.bufferView, accessor.byteOffset, accessor.count, columns * size, item_name);
-      numbers.resize(count, columns);
-      for (Index r = 0; r < count; ++r)
-      {
-        for (int c = 0; c < columns; ++c)
-        {
-          numbers(r, c) =
-            component_at(view.data + r * view.stride + c * size, accessor.componentType);
-        }
-      }
-    }
-    else
-    {
-      numbers.setZero(count, columns);
-    }
-    if (accessor.sparse.isSparse)
-    {
-      this->replace(accessor, columns, size, item_name, numbers);
-    }
-    if (accessor.normalized)
-    {
-      numbers /= normalization_divisor(accessor.componentType);
-      numbers = numbers.cwiseMax(-1.0);
-    }
-    return numbers;
-  }
-
-  /// Read an accessor and check that all values are finite.
-  Numbers read_finite(int id, int type, const char* item_name) const
-  {
-    Numbers numbers = this->read(id, type, item_name);
-    if (!numbers.allFinite())
-    {
-      throw GltfError(std::string(item_name) + ": a value is not finite");
-    }
-    return numbers;
-  }
-
-  /// Read an accessor and check that its values are unsigned integers.
-  Numbers read_ids(int id, int type, const char* item_name) const
-  {
-    const int component = at(this->model_.accessors, id, "accessor").componentType;
-    if (component != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
-      component != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
-      component != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
-    {
-      throw GltfError(std::string(item_name) + ": expected unsigned integers");
-    }
-    return this->read(id, type, item_name);
-  }
-
-private:
-  struct View
-  {
-    const unsigned char* data;
-    std::size_t stride;
-  };
-
-  View view(
-    int id, std::size_t offset, std::size_t count, std::size_t size, const char* item_name) const
-  {
-    const tinygltf::BufferView& view = at(this->model_.bufferViews, id, "buffer view");
-    const tinygltf::Buffer& buffer = at(this->model_.buffers, view.buffer, "buffer");
-    const std::size_t stride = view.byteStride > 0 ? view.byteStride : size;
-    const std::size_t all = buffer.data.size();
-    if (view.byteOffset > all || view.byteLength > all - view.byteOffset ||
-      offset > view.byteLength || stride > all || size > view.byteLength - offset ||
-      stride < size || (count - 1) > (view.byteLength - offset - size) / stride)
-    {
-      throw GltfError(std::string(item_name) + ": the data extend beyond the end of the buffer");
-    }
-    return { buffer.data.data() + view.byteOffset + offset, stride };
-  }
-
-  void replace(const tinygltf::Accessor& accessor, int columns, std::size_t size,
-    const char* item_name, Numbers& numbers) const
-  {
-    const auto& sparse = accessor.sparse;
-    if (sparse.count < 0 || sparse.count > numbers.rows() || sparse.indices.byteOffset < 0 ||
-      sparse.values.byteOffset < 0)
-    {
-      throw GltfError(std::string(item_name) + ": the sparse values are out of range");
-    }
-    if (sparse.count == 0)
-    {
-      return;
-    }
-    const auto count = static_cast<std::size_t>(sparse.count);
-    const std::size_t id_size = component_size(sparse.indices.componentType);
-    const View ids =
-      this->view(sparse.indices.bufferView, sparse.indices.byteOffset, count, id_size, item_name);
-    const View values = this->view(
-      sparse.values.bufferView, sparse.values.byteOffset, count, columns * size, item_name);
-    for (std::size_t k = 0; k < count; ++k)
-    {
-      const double row = component_at(ids.data + k * ids.stride, sparse.indices.componentType);
-      if (!(row >= 0.0 && row < static_cast<double>(numbers.rows())) || row != std::floor(row))
-      {
-        throw GltfError(std::string(item_name) + ": the sparse values are out of range");
-      }
-      for (int c = 0; c < columns; ++c)
-      {
-        numbers(static_cast<Index>(row), c) =
-          component_at(values.data + k * values.stride + c * size, accessor.componentType);
-      }
-    }
-  }
-
-  const tinygltf::Model& model_;
-  std::size_t bytes_ = 0;
-};
-
-// ---- Nodes -------------------------------------------------------------------------------------
-
-template <int Size>
-bool read_vector(const std::vector<double>& from, Eigen::Matrix<double, Size, 1>& to)
-{
-  if (from.empty())
-  {
-    return true;
-  }
-  if (from.size() != Size)
-  {
-    return false;
-  }
-  to = Eigen::Map<const Eigen::Matrix<double, Size, 1>>(from.data());
-  return to.allFinite();
-}
-
-/// The local transform of a node: a matrix, or translation, rotation and scale.
-struct NodeTransform
-{
-  bool has_matrix = false;
-  Eigen::Affine3d matrix = Eigen::Affine3d::Identity();
-  Trs trs;
-
-  Eigen::Affine3d affine() const { return this->has_matrix ? this->matrix : this->trs.affine(); }
-};
-
-void set_rotation(const Eigen::Vector4d& q, Trs& trs)
-{
-  if (!(q.norm() > 1e-12))
-  {
-    throw GltfError("a rotation has length zero");
-  }
-  trs.rotation.coeffs() = q.normalized();
-}
-
-NodeTransform read_node_transform(const tinygltf::Node& node)
-{
-  NodeTransform result;
-  Eigen::Matrix<double, 16, 1> columns = Eigen::Matrix<double, 16, 1>::Zero();
-  Eigen::Vector4d rotation = Eigen::Vector4d::UnitW();
-  if (!read_vector<16>(node.matrix, columns) ||
-    !read_vector<3>(node.translation, result.trs.translation) ||
-    !read_vector<4>(node.rotation, rotation) || !read_vector<3>(node.scale, result.trs.scale))
-  {
-    throw GltfError("the transform of a node is not valid: expected finite numbers, 16 for the "
-                    "matrix, 3 for the translation and scale, and 4 for the rotation");
-  }
-  set_rotation(rotation, result.trs);
-  if (!node.matrix.empty())
-  {
-    result.has_matrix = true;
-    result.matrix.matrix() = Eigen::Map<const Eigen::Matrix4d>(columns.data());
-    result.matrix.makeAffine();
-  }
-  return result;
-}
-
-struct Nodes
-{
-  std::vector<NodeTransform> node_transforms;
-  std::vector<int> parents;
-  std::vector<int> order; ///< parents first
-
-  /// Return the node-to-scene transforms.
-  Transforms scene_transforms() const
-  {
-    Transforms global(this->node_transforms.size());
-    for (const int id : this->order)
-    {
-      const Eigen::Affine3d local_transform = this->node_transforms[id].affine();
-      global[id] =
-        this->parents[id] < 0 ? local_transform : global[this->parents[id]] * local_transform;
-    }
-    return global;
-  }
-};
-
-Nodes read_nodes(const tinygltf::Model& model)
-{
-  Nodes nodes;
-  nodes.parents.assign(model.nodes.size(), -1);
-  for (std::size_t n = 0; n < model.nodes.size(); ++n)
-  {
-    nodes.node_transforms.push_back(read_node_transform(model.nodes[n]));
-    for (const int child : model.nodes[n].children)
-    {
-      at(model.nodes, child, "node");
-      if (nodes.parents[child] >= 0)
-      {
-        throw GltfError("node " + std::to_string(child) + " has more than one parent");
-      }
-      nodes.parents[child] = static_cast<int>(n);
-    }
-  }
-  for (std::size_t n = 0; n < model.nodes.size(); ++n)
-  {
-    if (nodes.parents[n] < 0)
-    {
-      nodes.order.push_back(static_cast<int>(n));
-    }
-  }
-  for (std::size_t k = 0; k < nodes.order.size(); ++k)
-  {
-    const auto& children = model.nodes[nodes.order[k]].children;
-    nodes.order.insert(nodes.order.end(), children.begin(), children.end());
-  }
-  if (nodes.order.size() != model.nodes.size())
-  {
-    throw GltfError("the hierarchy of the nodes contains a cycle");
-  }
-  return nodes;
-}
 
 // ---- Joints ------------------------------------------------------------------------------------
 
@@ -558,8 +87,8 @@ struct SkinNodes
   std::vector<int> joint_of_node;
 };
 
-SkinNodes read_joints(const tinygltf::Model& model, const Accessors& accessors, const Nodes& nodes,
-  const tinygltf::Skin& from, GltfSkin& skin)
+SkinNodes read_joints(const tinygltf::Model& model, const GltfAccessors& accessors,
+  const GltfNodes& nodes, const tinygltf::Skin& from, GltfSkin& skin)
 {
   SkinNodes result;
   result.joint_of_node.assign(model.nodes.size(), -1);
@@ -570,7 +99,7 @@ SkinNodes read_joints(const tinygltf::Model& model, const Accessors& accessors, 
   }
   for (std::size_t j = 0; j < from.joints.size(); ++j)
   {
-    at(model.nodes, from.joints[j], "node");
+    gltf_element(model.nodes, from.joints[j], "node");
     int& joint = result.joint_of_node[from.joints[j]];
     if (joint >= 0)
     {
@@ -578,7 +107,7 @@ SkinNodes read_joints(const tinygltf::Model& model, const Accessors& accessors, 
     }
     joint = static_cast<int>(j);
   }
-  Numbers inverse_binds;
+  GltfNumbers inverse_binds;
   if (from.inverseBindMatrices >= 0)
   {
     inverse_binds =
@@ -632,10 +161,10 @@ SkinNodes read_joints(const tinygltf::Model& model, const Accessors& accessors, 
 /// combination of vertex accessors (see first_vertex_by_accessors).
 struct Parts
 {
-  std::vector<Numbers> points;
-  std::vector<Numbers> normals;
-  std::vector<Numbers> textures;
-  std::vector<Numbers> colors;
+  std::vector<GltfNumbers> points;
+  std::vector<GltfNumbers> normals;
+  std::vector<GltfNumbers> textures;
+  std::vector<GltfNumbers> colors;
   std::vector<std::array<Index, 3>> triangles;
   Index vertices = 0;
   Index sets = 0;
@@ -673,7 +202,7 @@ void add_triangles(const std::vector<Index>& corners, int mode, Index offset, Pa
 }
 
 /// Read an attribute with one row per vertex. Return a matrix without rows if it is missing.
-Numbers read_attribute(const Accessors& accessors, const tinygltf::Primitive& primitive,
+GltfNumbers read_attribute(const GltfAccessors& accessors, const tinygltf::Primitive& primitive,
   const char* name, int type, Index vertices, bool ids = false)
 {
   const auto entry = primitive.attributes.find(name);
@@ -681,8 +210,8 @@ Numbers read_attribute(const Accessors& accessors, const tinygltf::Primitive& pr
   {
     return {};
   }
-  Numbers numbers = ids ? accessors.read_ids(entry->second, type, name)
-                        : accessors.read_finite(entry->second, type, name);
+  GltfNumbers numbers = ids ? accessors.read_ids(entry->second, type, name)
+                            : accessors.read_finite(entry->second, type, name);
   if (vertices >= 0 && numbers.rows() != vertices)
   {
     throw GltfError(std::string(name) + " has " + std::to_string(numbers.rows()) +
@@ -691,13 +220,13 @@ Numbers read_attribute(const Accessors& accessors, const tinygltf::Primitive& pr
   return numbers;
 }
 
-Numbers read_colors(const tinygltf::Model& model, const Accessors& accessors,
+GltfNumbers read_colors(const tinygltf::Model& model, const GltfAccessors& accessors,
   const tinygltf::Primitive& primitive, Index vertices)
 {
   const auto entry = primitive.attributes.find("COLOR_0");
   const bool three = entry != primitive.attributes.end() &&
-    at(model.accessors, entry->second, "accessor").type == TINYGLTF_TYPE_VEC3;
-  Numbers colors = read_attribute(
+    gltf_element(model.accessors, entry->second, "accessor").type == TINYGLTF_TYPE_VEC3;
+  GltfNumbers colors = read_attribute(
     accessors, primitive, "COLOR_0", three ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_VEC4, vertices);
   if (three)
   {
@@ -707,7 +236,7 @@ Numbers read_colors(const tinygltf::Model& model, const Accessors& accessors,
   return colors;
 }
 
-void read_influences(const Accessors& accessors, const tinygltf::Primitive& primitive,
+void read_influences(const GltfAccessors& accessors, const tinygltf::Primitive& primitive,
   Index vertices, std::size_t joints, Parts& parts)
 {
   const auto first = parts.influences.size();
@@ -716,9 +245,9 @@ void read_influences(const Accessors& accessors, const tinygltf::Primitive& prim
   {
     const std::string joint_name = "JOINTS_" + std::to_string(set);
     const std::string weight_name = "WEIGHTS_" + std::to_string(set);
-    const Numbers ids =
+    const GltfNumbers ids =
       read_attribute(accessors, primitive, joint_name.c_str(), TINYGLTF_TYPE_VEC4, vertices, true);
-    const Numbers weights =
+    const GltfNumbers weights =
       read_attribute(accessors, primitive, weight_name.c_str(), TINYGLTF_TYPE_VEC4, vertices);
     if (ids.rows() != weights.rows())
     {
@@ -753,7 +282,7 @@ void read_influences(const Accessors& accessors, const tinygltf::Primitive& prim
   }
 }
 
-void read_primitive(const tinygltf::Model& model, const Accessors& accessors,
+void read_primitive(const tinygltf::Model& model, const GltfAccessors& accessors,
   const tinygltf::Primitive& primitive, const Eigen::Affine3d& mesh_to_scene, std::size_t joints,
   Parts& parts)
 {
@@ -767,7 +296,7 @@ void read_primitive(const tinygltf::Model& model, const Accessors& accessors,
   parts.morph_targets = std::max(parts.morph_targets, static_cast<Index>(primitive.targets.size()));
   parts.more_attributes = parts.more_attributes || primitive.attributes.count("TEXCOORD_1") > 0 ||
     primitive.attributes.count("COLOR_1") > 0;
-  Numbers points = read_attribute(accessors, primitive, "POSITION", TINYGLTF_TYPE_VEC3, -1);
+  GltfNumbers points = read_attribute(accessors, primitive, "POSITION", TINYGLTF_TYPE_VEC3, -1);
   if (points.rows() == 0)
   {
     throw GltfError("a mesh has no attribute POSITION");
@@ -782,7 +311,8 @@ void read_primitive(const tinygltf::Model& model, const Accessors& accessors,
     {
       points.row(v) = (mesh_to_scene * Vec3(points.row(v).transpose())).transpose();
     }
-    Numbers normals = read_attribute(accessors, primitive, "NORMAL", TINYGLTF_TYPE_VEC3, vertices);
+    GltfNumbers normals =
+      read_attribute(accessors, primitive, "NORMAL", TINYGLTF_TYPE_VEC3, vertices);
     const Eigen::Matrix3d normal_matrix = mesh_to_scene.linear().inverse().transpose();
     for (Index v = 0; v < normals.rows() && normal_matrix.allFinite(); ++v)
     {
@@ -806,7 +336,7 @@ void read_primitive(const tinygltf::Model& model, const Accessors& accessors,
   }
   if (primitive.indices >= 0)
   {
-    const Numbers ids = accessors.read_ids(primitive.indices, TINYGLTF_TYPE_SCALAR, "indices");
+    const GltfNumbers ids = accessors.read_ids(primitive.indices, TINYGLTF_TYPE_SCALAR, "indices");
     for (Index k = 0; k < ids.rows(); ++k)
     {
       if (ids(k, 0) >= static_cast<double>(vertices))
@@ -823,10 +353,10 @@ void read_primitive(const tinygltf::Model& model, const Accessors& accessors,
 
 /// Concatenate the matrices of an attribute. Do nothing if some vertices lack the attribute.
 template <typename Matrix>
-void join(const std::vector<Numbers>& parts, Index rows, double unit, Matrix& all)
+void join(const std::vector<GltfNumbers>& parts, Index rows, double unit, Matrix& all)
 {
   Index sum = 0;
-  for (const Numbers& part : parts)
+  for (const GltfNumbers& part : parts)
   {
     sum += part.rows();
   }
@@ -836,7 +366,7 @@ void join(const std::vector<Numbers>& parts, Index rows, double unit, Matrix& al
   }
   all.resize(rows, all.cols());
   Index next = 0;
-  for (const Numbers& part : parts)
+  for (const GltfNumbers& part : parts)
   {
     if constexpr (std::is_integral_v<typename Matrix::Scalar>)
     {
@@ -909,7 +439,7 @@ struct Track
   std::string interpolation;
   std::vector<double> times;
   /// One row per key; for cubic interpolation three rows per key: in-tangent, value, out-tangent.
-  Numbers values;
+  GltfNumbers values;
 
   bool is_cubic() const { return this->interpolation == "CUBICSPLINE"; }
   Eigen::VectorXd value(std::size_t key) const
@@ -953,7 +483,7 @@ struct Track
   }
 };
 
-std::optional<Track> read_track(const tinygltf::Model& model, const Accessors& accessors,
+std::optional<Track> read_track(const tinygltf::Model& model, const GltfAccessors& accessors,
   const tinygltf::Animation& animation, const tinygltf::AnimationChannel& channel)
 {
   Track track;
@@ -975,10 +505,11 @@ std::optional<Track> read_track(const tinygltf::Model& model, const Accessors& a
   {
     return {}; // the channel belongs to an extension
   }
-  at(model.nodes, track.node, "node");
-  const tinygltf::AnimationSampler& sampler = at(animation.samplers, channel.sampler, "sampler");
+  gltf_element(model.nodes, track.node, "node");
+  const tinygltf::AnimationSampler& sampler =
+    gltf_element(animation.samplers, channel.sampler, "sampler");
   track.interpolation = sampler.interpolation;
-  const Numbers times = accessors.read_finite(sampler.input, TINYGLTF_TYPE_SCALAR, "key times");
+  const GltfNumbers times = accessors.read_finite(sampler.input, TINYGLTF_TYPE_SCALAR, "key times");
   track.times.assign(times.data(), times.data() + times.size());
   for (std::size_t k = 1; k < track.times.size(); ++k)
   {
@@ -1038,8 +569,8 @@ std::vector<double> frame_times(const std::vector<Track>& tracks, double& rate)
 }
 
 /// Read the first animation that moves a joint. Return its name, or nothing if there is none.
-std::optional<std::string> read_animation(const tinygltf::Model& model, const Accessors& accessors,
-  Nodes nodes, const SkinNodes& skin_nodes, GltfSkin& skin)
+std::optional<std::string> read_animation(const tinygltf::Model& model,
+  const GltfAccessors& accessors, GltfNodes nodes, const SkinNodes& skin_nodes, GltfSkin& skin)
 {
   std::vector<char> moves_a_joint(model.nodes.size(), 0);
   for (int id : skin_nodes.nodes)
@@ -1082,7 +613,7 @@ std::optional<std::string> read_animation(const tinygltf::Model& model, const Ac
   {
     for (const Track& track : tracks)
     {
-      NodeTransform& node_transform = nodes.node_transforms[track.node];
+      GltfNodeTransform& node_transform = nodes.node_transforms[track.node];
       node_transform.has_matrix = false; // glTF does not allow animated nodes with a matrix
       const Eigen::VectorXd value = track.at(time);
       switch (track.property)
@@ -1155,11 +686,11 @@ std::vector<std::string> find_unsupported(const tinygltf::Model& model, const Pa
   {
     unsupported.push_back("the division into " + std::to_string(parts.meshes) + " meshes");
   }
-  const auto add_partial = [&unsupported](
-                             const std::vector<Numbers>& rows, Index kept, const char* item_name)
+  const auto add_partial =
+    [&unsupported](const std::vector<GltfNumbers>& rows, Index kept, const char* item_name)
   {
-    const bool any =
-      std::any_of(rows.begin(), rows.end(), [](const Numbers& part) { return part.rows() > 0; });
+    const bool any = std::any_of(
+      rows.begin(), rows.end(), [](const GltfNumbers& part) { return part.rows() > 0; });
     if (any && kept == 0)
     {
       unsupported.push_back(std::string(item_name) + ", which only some meshes have");
@@ -1204,13 +735,14 @@ int first_skin(const tinygltf::Model& model)
 void read_model(const std::string& path, const tinygltf::Model& model, std::size_t file_size,
   GltfSkin& skin, Status& status)
 {
-  const Accessors accessors(model, file_size);
-  const Nodes nodes = read_nodes(model);
+  const GltfAccessors accessors(model, file_size);
+  const GltfNodes nodes = read_gltf_nodes(model);
   const int skin_id = first_skin(model);
   SkinNodes skin_nodes;
   if (skin_id >= 0)
   {
-    skin_nodes = read_joints(model, accessors, nodes, at(model.skins, skin_id, "skin"), skin);
+    skin_nodes =
+      read_joints(model, accessors, nodes, gltf_element(model.skins, skin_id, "skin"), skin);
   }
   const Transforms global = nodes.scene_transforms();
   Parts parts;
@@ -1228,7 +760,7 @@ void read_model(const std::string& path, const tinygltf::Model& model, std::size
       omitted_meshes += 1;
       continue;
     }
-    const tinygltf::Mesh& mesh = at(model.meshes, node.mesh, "mesh");
+    const tinygltf::Mesh& mesh = gltf_element(model.meshes, node.mesh, "mesh");
     if (skin_id >= 0 && !instanced_meshes.insert(node.mesh).second)
     {
       // The joints determine the position of the mesh, so a second node with this mesh would
@@ -1314,13 +846,13 @@ Status read_gltf_skin(const std::string& path, GltfSkin& skin)
   }
   try
   {
-    BufferFiles files;
+    GltfBufferFiles files;
     files.folder = std::filesystem::path(path).parent_path().string();
     if (files.folder.empty())
     {
       files.folder = ".";
     }
-    const tinygltf::Model model = parse(content, files);
+    const tinygltf::Model model = parse_gltf(content, files);
     read_model(path, model, content.size(), skin, status);
     skin.buffer_files = std::move(files.paths);
   }

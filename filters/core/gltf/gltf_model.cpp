@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <numeric>
 #include <string_view>
 
 namespace bindpose
@@ -17,19 +18,9 @@ namespace bindpose
 
 namespace
 {
-/// Report whether a path is a file in the folder of the glTF file or below it; links are followed.
-/// Other files are refused, because the glTF file is untrusted.
 bool is_buffer_file(const std::string& path, void* files)
 {
-  std::error_code error;
-  const auto file = std::filesystem::canonical(path, error);
-  if (error || !std::filesystem::is_regular_file(file, error))
-  {
-    return false;
-  }
-  const auto root = std::filesystem::canonical(static_cast<GltfBufferFiles*>(files)->folder, error);
-  return !error &&
-    std::mismatch(root.begin(), root.end(), file.begin(), file.end()).first == root.end();
+  return is_in_folder(path, static_cast<GltfBufferFiles*>(files)->folder);
 }
 
 std::string keep_path(const std::string& path, void*)
@@ -133,6 +124,19 @@ bool read_vector(const std::vector<double>& from, Eigen::Matrix<double, Size, 1>
 }
 
 } // namespace
+
+bool is_in_folder(const std::string& path, const std::string& folder)
+{
+  std::error_code error;
+  const auto file = std::filesystem::canonical(path, error);
+  if (error || !std::filesystem::is_regular_file(file, error))
+  {
+    return false;
+  }
+  const auto root = std::filesystem::canonical(folder, error);
+  return !error &&
+    std::mismatch(root.begin(), root.end(), file.begin(), file.end()).first == root.end();
+}
 
 tinygltf::Model parse_gltf(const std::string& content, GltfBufferFiles& files)
 {
@@ -333,6 +337,67 @@ void GltfAccessors::replace(const tinygltf::Accessor& accessor, int columns, std
         component_at(values.data + k * values.stride + c * size, accessor.componentType);
     }
   }
+}
+
+namespace
+{
+int mode_of(const tinygltf::Primitive& primitive)
+{
+  return primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
+}
+
+/// Return the vertices of the corners of all triangles, in order.
+std::vector<Index> read_corners(
+  const GltfAccessors& accessors, const tinygltf::Primitive& primitive, Index vertices)
+{
+  std::vector<Index> corners;
+  if (primitive.indices < 0)
+  {
+    corners.resize(static_cast<std::size_t>(vertices));
+    std::iota(corners.begin(), corners.end(), Index(0));
+    return corners;
+  }
+  const GltfNumbers ids = accessors.read_ids(primitive.indices, TINYGLTF_TYPE_SCALAR, "indices");
+  for (Index k = 0; k < ids.rows(); ++k)
+  {
+    if (ids(k, 0) >= static_cast<double>(vertices))
+    {
+      throw GltfError("a triangle references vertex " +
+        std::to_string(static_cast<Index>(ids(k, 0))) + ", but there are " +
+        std::to_string(vertices) + " vertices");
+    }
+    corners.push_back(static_cast<Index>(ids(k, 0)));
+  }
+  return corners;
+}
+} // namespace
+
+bool has_triangles(const tinygltf::Primitive& primitive)
+{
+  const int mode = mode_of(primitive);
+  return mode == TINYGLTF_MODE_TRIANGLES || mode == TINYGLTF_MODE_TRIANGLE_STRIP ||
+    mode == TINYGLTF_MODE_TRIANGLE_FAN;
+}
+
+std::vector<std::array<Index, 3>> read_gltf_triangles(
+  const GltfAccessors& accessors, const tinygltf::Primitive& primitive, Index vertices)
+{
+  const int mode = mode_of(primitive);
+  const std::vector<Index> corners = read_corners(accessors, primitive, vertices);
+  const std::size_t count = corners.size();
+  if (count < 3 || (mode == TINYGLTF_MODE_TRIANGLES && count % 3 != 0))
+  {
+    throw GltfError("a mesh has " + std::to_string(count) +
+      " triangle corners; expected at least 3, and a multiple of 3 for a triangle list");
+  }
+  std::vector<std::array<Index, 3>> triangles;
+  for (std::size_t k = 0; k + 2 < count; k += mode == TINYGLTF_MODE_TRIANGLES ? 3 : 1)
+  {
+    const std::size_t flip = mode == TINYGLTF_MODE_TRIANGLE_STRIP ? k % 2 : 0;
+    triangles.push_back({ corners[mode == TINYGLTF_MODE_TRIANGLE_FAN ? 0 : k],
+      corners[k + 1 + flip], corners[k + 2 - flip] });
+  }
+  return triangles;
 }
 
 void set_rotation(const Eigen::Vector4d& q, Trs& trs)

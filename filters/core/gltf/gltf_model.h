@@ -9,6 +9,7 @@
 #include "gltf/gltf_transform.h"
 #include "gltf/tiny_gltf.h"
 
+#include <array>
 #include <cstddef>
 #include <exception>
 #include <string>
@@ -33,6 +34,10 @@ struct GltfBufferFiles
   std::string folder; ///< the folder of the glTF file
   std::vector<std::string> paths; ///< the files that were read
 };
+
+/// Report whether a path is a regular file in a folder or below it; links are followed. Other files
+/// are refused, because a glTF file is untrusted.
+bool is_in_folder(const std::string& path, const std::string& folder);
 
 /// Parse the content of a .gltf or .glb file. Buffers are read, images are not. Throw GltfError for
 /// a file that is not valid, another version than 2.0, and required extensions that could change
@@ -86,6 +91,13 @@ private:
   const tinygltf::Model& model_;
   std::size_t bytes_ = 0;
 };
+
+/// Report whether a primitive consists of triangles: a list, a strip or a fan.
+bool has_triangles(const tinygltf::Primitive& primitive);
+/// Return the triangles of a primitive with `vertices` vertices. Throw GltfError if a triangle is
+/// not complete or has an unknown vertex.
+std::vector<std::array<Index, 3>> read_gltf_triangles(
+  const GltfAccessors& accessors, const tinygltf::Primitive& primitive, Index vertices);
 
 /// The local transform of a node: a matrix, or translation, rotation and scale.
 struct GltfNodeTransform

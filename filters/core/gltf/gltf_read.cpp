@@ -180,27 +180,6 @@ struct Parts
   std::vector<std::vector<std::pair<Index, double>>> influences;
 };
 
-void add_triangles(const std::vector<Index>& corners, int mode, Index offset, Parts& parts)
-{
-  const auto count = static_cast<Index>(corners.size());
-  if (count < 3 || (mode == TINYGLTF_MODE_TRIANGLES && count % 3 != 0))
-  {
-    throw GltfError("a mesh has " + std::to_string(count) +
-      " triangle corners; expected at least 3, and a multiple of 3 for a triangle list");
-  }
-  const auto add = [&](Index a, Index b, Index c)
-  {
-    parts.triangles.push_back({ offset + corners[static_cast<std::size_t>(a)],
-      offset + corners[static_cast<std::size_t>(b)],
-      offset + corners[static_cast<std::size_t>(c)] });
-  };
-  for (Index k = 0; k + 2 < count; k += mode == TINYGLTF_MODE_TRIANGLES ? 3 : 1)
-  {
-    const Index flip = mode == TINYGLTF_MODE_TRIANGLE_STRIP ? k % 2 : 0;
-    add(mode == TINYGLTF_MODE_TRIANGLE_FAN ? 0 : k, k + 1 + flip, k + 2 - flip);
-  }
-}
-
 /// Read an attribute with one row per vertex. Return a matrix without rows if it is missing.
 GltfNumbers read_attribute(const GltfAccessors& accessors, const tinygltf::Primitive& primitive,
   const char* name, int type, Index vertices, bool ids = false)
@@ -286,9 +265,7 @@ void read_primitive(const tinygltf::Model& model, const GltfAccessors& accessors
   const tinygltf::Primitive& primitive, const Eigen::Affine3d& mesh_to_scene, std::size_t joints,
   Parts& parts)
 {
-  const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
-  if (mode != TINYGLTF_MODE_TRIANGLES && mode != TINYGLTF_MODE_TRIANGLE_STRIP &&
-    mode != TINYGLTF_MODE_TRIANGLE_FAN)
+  if (!has_triangles(primitive))
   {
     parts.skipped += 1;
     return;
@@ -329,26 +306,10 @@ void read_primitive(const tinygltf::Model& model, const GltfAccessors& accessors
     }
     parts.vertices += vertices;
   }
-  std::vector<Index> corners(static_cast<std::size_t>(primitive.indices < 0 ? vertices : 0));
-  for (std::size_t k = 0; k < corners.size(); ++k)
+  for (const auto& t : read_gltf_triangles(accessors, primitive, vertices))
   {
-    corners[k] = static_cast<Index>(k);
+    parts.triangles.push_back({ offset + t[0], offset + t[1], offset + t[2] });
   }
-  if (primitive.indices >= 0)
-  {
-    const GltfNumbers ids = accessors.read_ids(primitive.indices, TINYGLTF_TYPE_SCALAR, "indices");
-    for (Index k = 0; k < ids.rows(); ++k)
-    {
-      if (ids(k, 0) >= static_cast<double>(vertices))
-      {
-        throw GltfError("a triangle references vertex " +
-          std::to_string(static_cast<Index>(ids(k, 0))) + ", but there are " +
-          std::to_string(vertices) + " vertices");
-      }
-      corners.push_back(static_cast<Index>(ids(k, 0)));
-    }
-  }
-  add_triangles(corners, mode, offset, parts);
 }
 
 /// Concatenate the matrices of an attribute. Do nothing if some vertices lack the attribute.

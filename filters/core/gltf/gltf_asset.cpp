@@ -1,0 +1,513 @@
+#include "gltf/gltf_asset.h"
+
+#include "gltf/gltf_joints.h"
+#include "gltf/gltf_model.h"
+#include "gltf/gltf_weights.h"
+#include "io/text_scanner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <set>
+#include <tuple>
+#include <utility>
+
+namespace bindpose
+{
+
+namespace
+{
+using Json = GltfDocument::Json;
+
+/// Return the nodes of the default scene, parents first. A file without scenes has all its nodes in
+/// one scene.
+std::vector<int> scene_nodes(const tinygltf::Model& model)
+{
+  std::vector<int> ids;
+  if (model.scenes.empty())
+  {
+    ids.resize(model.nodes.size());
+    std::iota(ids.begin(), ids.end(), 0);
+    return ids;
+  }
+  std::vector<char> found(model.nodes.size(), 0);
+  const auto add = [&](int id)
+  {
+    gltf_element(model.nodes, id, "node");
+    if (!found[id])
+    {
+      found[id] = 1;
+      ids.push_back(id);
+    }
+  };
+  const tinygltf::Scene& scene =
+    gltf_element(model.scenes, std::max(0, model.defaultScene), "scene");
+  std::for_each(scene.nodes.begin(), scene.nodes.end(), add);
+  for (std::size_t k = 0; k < ids.size(); ++k)
+  {
+    const std::vector<int>& children = model.nodes[ids[k]].children;
+    std::for_each(children.begin(), children.end(), add);
+  }
+  return ids;
+}
+
+/// Return the transform by which a skin moves its meshes if it is in the bind pose: all joints then
+/// have the same transform. Otherwise return the identity and set `posed`.
+Eigen::Affine3d bind_transform(const tinygltf::Model& model, const GltfAccessors& accessors,
+  const std::vector<Eigen::Affine3d>& node_to_scene, const tinygltf::Skin& skin, bool& posed)
+{
+  posed = true;
+  if (skin.joints.empty() || skin.inverseBindMatrices < 0)
+  {
+    return Eigen::Affine3d::Identity();
+  }
+  const GltfNumbers inverse_binds =
+    accessors.read_finite(skin.inverseBindMatrices, TINYGLTF_TYPE_MAT4, "inverse bind matrices");
+  Eigen::Affine3d first = Eigen::Affine3d::Identity();
+  for (std::size_t j = 0; j < skin.joints.size(); ++j)
+  {
+    gltf_element(model.nodes, skin.joints[j], "node");
+    if (static_cast<Index>(j) >= inverse_binds.rows())
+    {
+      throw GltfError("the skin has fewer inverse bind matrices than joints");
+    }
+    Eigen::Affine3d inverse;
+    inverse.matrix() =
+      Eigen::Map<const Eigen::Matrix4d>(inverse_binds.data() + 16 * static_cast<Index>(j));
+    inverse.makeAffine();
+    const Eigen::Affine3d map = node_to_scene[skin.joints[j]] * inverse;
+    constexpr double tolerance = 1e-4; // matrices are stored as floats
+    if (j == 0)
+    {
+      first = map;
+    }
+    else if (!((map.matrix() - first.matrix()).norm() <= tolerance * first.matrix().norm()))
+    {
+      return Eigen::Affine3d::Identity();
+    }
+  }
+  posed = false;
+  return first;
+}
+
+/// Replace the weights of each vertex that no triangle uses by those of the nearest vertex of a
+/// triangle.
+void copy_nearest_weights(const Points& points, const Triangles& triangles, Weights& weights)
+{
+  std::vector<char> used(static_cast<std::size_t>(points.rows()), 0);
+  for (Index k = 0; k < triangles.size(); ++k)
+  {
+    used[triangles.data()[k]] = 1;
+  }
+  std::vector<Index> sorted; // vertices of triangles, by x
+  for (Index v = 0; v < points.rows(); ++v)
+  {
+    if (used[v])
+    {
+      sorted.push_back(v);
+    }
+  }
+  const auto by_x = [&](Index a, Index b)
+  { return std::make_pair(points(a, 0), a) < std::make_pair(points(b, 0), b); };
+  std::sort(sorted.begin(), sorted.end(), by_x);
+  for (Index v = 0; v < points.rows(); ++v)
+  {
+    if (used[v])
+    {
+      continue;
+    }
+    double nearest = std::numeric_limits<double>::infinity();
+    Index source = -1;
+    const auto visit = [&](Index other)
+    {
+      const double distance = (points.row(other) - points.row(v)).squaredNorm();
+      if (distance < nearest)
+      {
+        nearest = distance;
+        source = other;
+      }
+      const double dx = points(other, 0) - points(v, 0);
+      return dx * dx <= nearest; // farther vertices are not nearer
+    };
+    const auto middle = std::lower_bound(sorted.begin(), sorted.end(), v, by_x);
+    for (auto at = middle; at != sorted.end() && visit(*at); ++at)
+    {
+    }
+    for (auto at = middle; at != sorted.begin() && visit(*(at - 1)); --at)
+    {
+    }
+    weights.row(v) = weights.row(source);
+  }
+}
+
+/// Remove the attributes JOINTS_n and WEIGHTS_n of a primitive.
+void erase_weights(Json& attributes)
+{
+  std::vector<std::string> names;
+  for (const auto& entry : attributes.items())
+  {
+    if (entry.key().compare(0, 7, "JOINTS_") == 0 || entry.key().compare(0, 8, "WEIGHTS_") == 0)
+    {
+      names.push_back(entry.key());
+    }
+  }
+  for (const std::string& name : names)
+  {
+    attributes.erase(name);
+  }
+}
+
+/// Remove the skins that no node uses, and renumber the others.
+void remove_unused_skins(GltfDocument& document)
+{
+  Json& skins = document.list("skins");
+  std::vector<int> new_id(skins.size(), -1);
+  for (const Json& node : document.list("nodes"))
+  {
+    if (node.contains("skin"))
+    {
+      new_id.at(node["skin"].get<std::size_t>()) = 0;
+    }
+  }
+  Json kept = Json::array();
+  for (std::size_t k = 0; k < skins.size(); ++k)
+  {
+    if (new_id[k] == 0)
+    {
+      new_id[k] = static_cast<int>(kept.size());
+      kept.push_back(std::move(skins[k]));
+    }
+  }
+  skins = std::move(kept);
+  for (Json& node : document.list("nodes"))
+  {
+    if (node.contains("skin"))
+    {
+      node["skin"] = new_id[node["skin"].get<std::size_t>()];
+    }
+  }
+}
+} // namespace
+
+/// Reads the meshes of a scene.
+struct GltfAsset::Reader
+{
+  Reader(GltfAsset& asset, const tinygltf::Model& model, std::size_t file_size, Status& status)
+    : asset_(asset), model_(model), accessors_(model, file_size), status_(status)
+  {
+  }
+
+  void read()
+  {
+    const GltfNodes nodes = read_gltf_nodes(this->model_);
+    this->asset_.scene_ = std::max(0, this->model_.defaultScene);
+    this->asset_.parents_ = nodes.parents;
+    this->asset_.node_to_scene_ = nodes.scene_transforms();
+    this->asset_.mesh_to_scene_ = this->asset_.node_to_scene_;
+    this->asset_.animated_.assign(this->model_.nodes.size(), 0);
+    for (const tinygltf::Animation& animation : this->model_.animations)
+    {
+      for (const tinygltf::AnimationChannel& channel : animation.channels)
+      {
+        if (channel.target_node >= 0 && channel.target_path != "weights")
+        {
+          gltf_element(this->model_.nodes, channel.target_node, "node");
+          this->asset_.animated_[channel.target_node] = 1;
+        }
+      }
+    }
+    for (const int id : scene_nodes(this->model_))
+    {
+      if (this->model_.nodes[id].mesh >= 0)
+      {
+        this->read_mesh(id);
+      }
+    }
+    if (this->triangles_.empty())
+    {
+      throw GltfError("the default scene contains no triangles");
+    }
+    this->asset_.points_.resize(static_cast<Index>(this->points_.size()), 3);
+    for (std::size_t v = 0; v < this->points_.size(); ++v)
+    {
+      this->asset_.points_.row(static_cast<Index>(v)) = this->points_[v];
+    }
+    if (!this->asset_.points_.allFinite())
+    {
+      throw GltfError("a vertex has a coordinate that is not finite");
+    }
+    this->asset_.triangles_.resize(static_cast<Index>(this->triangles_.size()), 3);
+    for (std::size_t t = 0; t < this->triangles_.size(); ++t)
+    {
+      const auto& [a, b, c] = this->triangles_[t];
+      this->asset_.triangles_.row(static_cast<Index>(t)) << a, b, c;
+    }
+    Report& report = this->status_.report;
+    report.set("counts.meshes", this->meshes_);
+    report.set("counts.vertices", this->asset_.points_.rows());
+    report.set("counts.triangles", this->asset_.triangles_.rows());
+    report.set("counts.skipped_primitives", this->skipped_);
+  }
+
+private:
+  void read_mesh(int id)
+  {
+    const tinygltf::Node& node = this->model_.nodes[id];
+    const tinygltf::Mesh& mesh = gltf_element(this->model_.meshes, node.mesh, "mesh");
+    if (std::none_of(mesh.primitives.begin(), mesh.primitives.end(), has_triangles))
+    {
+      this->skipped_ += static_cast<Index>(mesh.primitives.size());
+      return;
+    }
+    if (node.skin >= 0)
+    {
+      bool posed = false;
+      this->asset_.mesh_to_scene_[id] = bind_transform(this->model_, this->accessors_,
+        this->asset_.node_to_scene_, gltf_element(this->model_.skins, node.skin, "skin"), posed);
+      if (posed)
+      {
+        this->status_.warnings.push_back("the mesh '" + sanitize_line(mesh.name) +
+          "' is not in the bind pose of its skin; the new skin begins with the bind pose");
+      }
+    }
+    this->meshes_ += 1;
+    std::map<int, Index> first_of_accessor; // primitives with different materials share vertices
+    for (std::size_t k = 0; k < mesh.primitives.size(); ++k)
+    {
+      const tinygltf::Primitive& primitive = mesh.primitives[k];
+      const auto position = primitive.attributes.find("POSITION");
+      if (position == primitive.attributes.end())
+      {
+        throw GltfError("a mesh has no attribute POSITION");
+      }
+      const auto [entry, is_new] =
+        first_of_accessor.insert({ position->second, static_cast<Index>(this->points_.size()) });
+      const Index count = is_new
+        ? this->add_points(position->second, this->asset_.mesh_to_scene_[id])
+        : static_cast<Index>(
+            gltf_element(this->model_.accessors, position->second, "accessor").count);
+      this->asset_.parts_.push_back({ id, static_cast<int>(k), entry->second, count });
+      if (!has_triangles(primitive))
+      {
+        this->skipped_ += 1;
+        continue;
+      }
+      for (const auto& t : read_gltf_triangles(this->accessors_, primitive, count))
+      {
+        this->triangles_.push_back(
+          { entry->second + t[0], entry->second + t[1], entry->second + t[2] });
+      }
+    }
+  }
+
+  Index add_points(int accessor, const Eigen::Affine3d& mesh_to_scene)
+  {
+    const GltfNumbers rows = this->accessors_.read_finite(accessor, TINYGLTF_TYPE_VEC3, "POSITION");
+    for (Index v = 0; v < rows.rows(); ++v)
+    {
+      this->points_.emplace_back(mesh_to_scene * Vec3(rows.row(v).transpose()));
+    }
+    return rows.rows();
+  }
+
+  GltfAsset& asset_;
+  const tinygltf::Model& model_;
+  const GltfAccessors accessors_;
+  Status& status_;
+  std::vector<Vec3> points_;
+  std::vector<std::array<Index, 3>> triangles_;
+  Index meshes_ = 0;
+  Index skipped_ = 0;
+};
+
+Status GltfAsset::read(const std::string& path)
+{
+  *this = GltfAsset();
+  std::string content;
+  Status status = read_file(path, content);
+  if (!status.ok())
+  {
+    return status;
+  }
+  try
+  {
+    GltfBufferFiles files;
+    files.folder = std::filesystem::path(path).parent_path().string();
+    files.folder = files.folder.empty() ? "." : files.folder;
+    const tinygltf::Model model = parse_gltf(content, files);
+    this->document_ = GltfDocument(content, model, files.folder, status.warnings);
+    Reader(*this, model, content.size(), status).read();
+  }
+  catch (const GltfError& failure)
+  {
+    status = Status::invalid_input(path + ": " + failure.sentence);
+  }
+  catch (const std::bad_alloc&)
+  {
+    status = Status::invalid_input(path + ": the file needs more memory than is available");
+  }
+  if (!status.ok())
+  {
+    *this = GltfAsset();
+  }
+  return status;
+}
+
+/// Add the nodes of the joints, below the scene or below an animated parent of all nodes with
+/// triangles.
+GltfJointNodes GltfAsset::add_skeleton(
+  const std::vector<GltfJoint>& joints, bool rest_joint, Status& status)
+{
+  std::vector<Eigen::Affine3d> exact_maps, stored_maps;
+  for (const GltfJoint& joint : joints)
+  {
+    exact_maps.push_back(joint.rest);
+  }
+  const GltfJointNodes nodes =
+    append_joints(this->document_, joints, local_maps(joints, exact_maps, stored_maps), rest_joint);
+  std::set<int> meshes;
+  std::map<int, Index> moved_meshes; // per animated node: number of the meshes that it moves
+  for (const Part& part : this->parts_)
+  {
+    for (int id = meshes.insert(part.node).second ? part.node : -1; id >= 0;
+         id = this->parents_[id])
+    {
+      moved_meshes[id] += this->animated_[id];
+    }
+  }
+  // The joints move with `parent`, so the motion of this node and of its parents is kept.
+  int parent = -1;
+  for (int id = *meshes.begin(); id >= 0 && parent < 0; id = this->parents_[id])
+  {
+    const bool moves_all = moved_meshes[id] == static_cast<Index>(meshes.size());
+    parent = moves_all && this->node_to_scene_[id].linear().determinant() != 0.0 ? id : -1;
+  }
+  std::vector<std::string> losses;
+  for (const auto& [id, count] : moved_meshes)
+  {
+    if (count > 0 && count < static_cast<Index>(meshes.size()))
+    {
+      losses.push_back("the animation of node '" +
+        sanitize_line(this->document_.list("nodes")[id].value("name", std::to_string(id))) + "'");
+    }
+  }
+  for (const std::string& loss : losses)
+  {
+    status.warnings.push_back(loss + " no longer moves its mesh, because the skin moves the mesh");
+  }
+  if (!losses.empty())
+  {
+    status.report.set("losses[]", losses);
+  }
+  Json& json_nodes = this->document_.list("nodes");
+  if (parent >= 0)
+  {
+    const Eigen::Matrix4d inverse = this->node_to_scene_[parent].inverse().matrix();
+    json_nodes[nodes.root]["matrix"] =
+      std::vector<double>(inverse.data(), inverse.data() + inverse.size());
+    json_nodes[parent]["children"].push_back(nodes.root);
+    return nodes;
+  }
+  Json& scenes = this->document_.list("scenes");
+  if (scenes.empty())
+  {
+    Json roots = Json::array();
+    for (std::size_t id = 0; id < this->parents_.size(); ++id)
+    {
+      if (this->parents_[id] < 0)
+      {
+        roots.push_back(id);
+      }
+    }
+    this->document_.json()["scene"] = 0;
+    scenes.push_back({ { "nodes", std::move(roots) } });
+  }
+  scenes[this->scene_]["nodes"].push_back(nodes.root);
+  return nodes;
+}
+
+Status GltfAsset::set_skin(
+  const std::vector<GltfJoint>& joints, const Weights& weights, Index maximum_influences)
+{
+  if (weights.rows() != this->points_.rows() ||
+    weights.cols() != static_cast<Index>(joints.size()) || joints.empty())
+  {
+    return Status::invalid_input("the weights have " + std::to_string(weights.rows()) +
+      " rows and " + std::to_string(weights.cols()) + " columns; expected " +
+      std::to_string(this->points_.rows()) + " rows and " + std::to_string(joints.size()) +
+      " columns, at least one");
+  }
+  const Status status = check_joints(joints);
+  if (!status.ok())
+  {
+    return status;
+  }
+  try
+  {
+    return this->replace_skins(joints, weights, maximum_influences);
+  }
+  catch (const Json::exception& error) // a value of the file has a wrong type
+  {
+    return Status::invalid_input(std::string("the file is not valid: ") + error.what());
+  }
+}
+
+Status GltfAsset::replace_skins(
+  const std::vector<GltfJoint>& joints, const Weights& weights, Index maximum_influences)
+{
+  Status status;
+  Weights all = weights;
+  copy_nearest_weights(this->points_, this->triangles_, all);
+  const GltfWeights packed = to_gltf_weights(all, maximum_influences);
+  const GltfJointNodes nodes = this->add_skeleton(joints, packed.rest_joint, status);
+  std::map<std::vector<double>, int> skins; // by the transform from the mesh to the scene
+  std::map<Index, Json> attributes_of_vertices; // by the first vertex
+  std::set<int> edited_meshes;
+  const Json original_meshes = this->document_.list("meshes");
+  int last_node = -1;
+  for (const Part& part : this->parts_)
+  {
+    Json& node = this->document_.list("nodes")[part.node];
+    if (part.node != last_node)
+    {
+      last_node = part.node;
+      const Eigen::Matrix4d map = this->mesh_to_scene_[part.node].matrix();
+      const auto [skin, is_new] = skins.insert({ { map.data(), map.data() + map.size() }, -1 });
+      if (is_new)
+      {
+        skin->second = append_skin(this->document_, joints, nodes, this->mesh_to_scene_[part.node]);
+      }
+      node["skin"] = skin->second;
+      const int mesh = node["mesh"].get<int>();
+      if (!edited_meshes.insert(mesh).second)
+      {
+        // A second node has this mesh. Its vertices have other weights, so it needs its own mesh.
+        node["mesh"] = this->document_.append("meshes", original_meshes[mesh]);
+      }
+    }
+    const auto [stored, is_new] = attributes_of_vertices.insert({ part.first, Json::object() });
+    if (is_new)
+    {
+      append_weights(this->document_, packed, part.first, part.first + part.count, stored->second);
+    }
+    Json& attributes = this->document_.list(
+      "meshes")[node["mesh"].get<std::size_t>()]["primitives"][part.primitive]["attributes"];
+    erase_weights(attributes);
+    attributes.update(stored->second);
+  }
+  remove_unused_skins(this->document_);
+  Report& report = status.report;
+  report.set("counts.joints", joints.size());
+  report_weights(packed, status);
+  return status;
+}
+
+Status GltfAsset::write(const std::string& path, bool binary) const
+{
+  return this->document_.write(path, binary);
+}
+
+} // namespace bindpose

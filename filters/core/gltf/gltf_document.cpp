@@ -1,0 +1,380 @@
+#include "gltf/gltf_document.h"
+
+#include "gltf/gltf_model.h"
+#include "io/text_scanner.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+
+namespace bindpose
+{
+
+namespace
+{
+using Json = GltfDocument::Json;
+
+constexpr std::size_t header_size = 12; // bytes before the first chunk of a .glb file
+constexpr std::size_t chunk_header_size = 8;
+constexpr std::uint32_t json_chunk = 0x4e4f534a;
+constexpr std::uint32_t buffer_chunk = 0x004e4942;
+// Maximum size of a file in bytes; a .glb file stores its size in 32 bits.
+constexpr std::size_t largest_file = 0xf0000000;
+
+std::uint32_t number_at(std::string_view bytes, std::size_t at)
+{
+  std::uint32_t number = 0;
+  std::memcpy(&number, bytes.data() + at, sizeof(number));
+  return number;
+}
+
+void append_word(std::string& bytes, std::size_t number)
+{
+  const auto value = static_cast<std::uint32_t>(number);
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
+}
+
+void append_chunk(std::string& bytes, std::uint32_t type, std::string_view chunk, char padding)
+{
+  const std::size_t padded = (chunk.size() + 3) / 4 * 4;
+  append_word(bytes, padded);
+  append_word(bytes, type);
+  bytes.append(chunk).append(padded - chunk.size(), padding);
+}
+
+/// The chunks of a .glb file. The buffer's chunk is not needed, because tinygltf has read it.
+struct Chunks
+{
+  std::string_view text;
+  std::string_view further; ///< whole chunks, with their headers
+};
+
+Chunks split(const std::string& content)
+{
+  const std::string_view bytes(content);
+  if (bytes.substr(0, 4) != "glTF")
+  {
+    return { bytes, {} };
+  }
+  Chunks chunks;
+  std::size_t at = header_size;
+  for (int k = 0; at + chunk_header_size <= bytes.size(); ++k)
+  {
+    const std::size_t size = number_at(bytes, at);
+    const std::uint32_t type = number_at(bytes, at + 4);
+    if (size > bytes.size() - at - chunk_header_size)
+    {
+      throw GltfError("chunk " + std::to_string(k) + " extends beyond the end of the file");
+    }
+    if (k == 0)
+    {
+      chunks.text = bytes.substr(at + chunk_header_size, size);
+    }
+    else if (k > 1 || type != buffer_chunk)
+    {
+      chunks.further = bytes.substr(at);
+      break;
+    }
+    at += chunk_header_size + size;
+  }
+  return chunks;
+}
+
+/// Replace %XX by the byte with this hexadecimal number.
+std::string decode_uri(const std::string& uri)
+{
+  std::string path;
+  for (std::size_t k = 0; k < uri.size(); ++k)
+  {
+    const bool escaped = uri[k] == '%' && k + 2 < uri.size() &&
+      std::isxdigit(static_cast<unsigned char>(uri[k + 1])) != 0 &&
+      std::isxdigit(static_cast<unsigned char>(uri[k + 2])) != 0;
+    path += escaped ? static_cast<char>(std::stoi(uri.substr(k + 1, 2), nullptr, 16)) : uri[k];
+    k += escaped ? 2 : 0;
+  }
+  return path;
+}
+
+/// Return the MIME type of a picture, from its first bytes; empty for a format that glTF does not
+/// allow.
+std::string picture_type(std::string_view bytes)
+{
+  using namespace std::string_view_literals;
+  if (bytes.size() < 12)
+  {
+    return "";
+  }
+  return bytes.substr(0, 8) == "\x89PNG\r\n\x1a\n"sv                   ? "image/png"
+    : bytes.substr(0, 3) == "\xff\xd8\xff"sv                           ? "image/jpeg"
+    : bytes.substr(0, 4) == "RIFF"sv && bytes.substr(8, 4) == "WEBP"sv ? "image/webp"
+    : bytes.substr(1, 6) == "KTX 20"sv                                 ? "image/ktx2"
+    : bytes.substr(0, 4) == "DDS "sv                                   ? "image/vnd-ms.dds"
+                                                                       : "";
+}
+
+const char* type_name(int components)
+{
+  switch (components)
+  {
+    case 1:
+      return "SCALAR";
+    case 2:
+      return "VEC2";
+    case 3:
+      return "VEC3";
+    case 4:
+      return "VEC4";
+    default:
+      return "MAT4";
+  }
+}
+
+std::string base64(std::string_view bytes)
+{
+  constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t k = 0; k < bytes.size(); k += 3)
+  {
+    std::uint32_t group = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const bool exists = k + i < bytes.size();
+      group = group << 8 | (exists ? static_cast<unsigned char>(bytes[k + i]) : 0U);
+    }
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      text += k + i > bytes.size() ? '=' : digits[group >> (18 - 6 * i) & 63];
+    }
+  }
+  return text;
+}
+} // namespace
+
+GltfDocument::GltfDocument()
+{
+  this->json_["asset"] = { { "version", "2.0" }, { "generator", "Bindpose" } };
+}
+
+GltfDocument::GltfDocument(const std::string& content, const tinygltf::Model& model,
+  const std::string& folder, std::vector<std::string>& warnings)
+{
+  const Chunks chunks = split(content);
+  this->json_ = Json::parse(chunks.text, nullptr, false);
+  if (!this->json_.is_object())
+  {
+    throw GltfError("the JSON text is not valid");
+  }
+  this->further_chunks_ = chunks.further;
+  this->join_buffers(model);
+  this->embed_images(folder, warnings);
+}
+
+/// Append the data of all buffers to one buffer, and change the references of the buffer views. The
+/// bytes of the first buffer keep their positions.
+void GltfDocument::join_buffers(const tinygltf::Model& model)
+{
+  std::vector<std::size_t> begins;
+  for (const tinygltf::Buffer& buffer : model.buffers)
+  {
+    constexpr std::size_t alignment = 8;
+    this->buffer_.resize((this->buffer_.size() + alignment - 1) / alignment * alignment);
+    begins.push_back(this->buffer_.size());
+    this->buffer_.append(reinterpret_cast<const char*>(buffer.data.data()), buffer.data.size());
+  }
+  // Extensions that compress a view, such as EXT_meshopt_compression, also refer to a buffer.
+  const auto redirect = [&begins](Json& view)
+  {
+    if (!view.is_object() || !view.contains("buffer") || !view["buffer"].is_number_unsigned())
+    {
+      return;
+    }
+    const auto id = view["buffer"].get<std::size_t>();
+    if (id > 0 && id < begins.size())
+    {
+      view["byteOffset"] = begins[id] + view.value("byteOffset", std::size_t(0));
+      view["buffer"] = 0;
+    }
+  };
+  for (Json& view : this->list("bufferViews"))
+  {
+    redirect(view);
+    if (view.is_object() && view.contains("extensions") && view["extensions"].is_object())
+    {
+      for (Json& extension : view["extensions"])
+      {
+        redirect(extension);
+      }
+    }
+  }
+  Json& buffers = this->list("buffers");
+  if (buffers.size() > 1)
+  {
+    buffers.erase(buffers.begin() + 1, buffers.end());
+  }
+}
+
+/// Store external images in the buffer.
+void GltfDocument::embed_images(const std::string& folder, std::vector<std::string>& warnings)
+{
+  for (const char* name : { "images", "buffers", "bufferViews" })
+  {
+    if (this->json_.contains(name) && this->json_[name].empty())
+    {
+      this->json_.erase(name); // glTF does not allow empty lists
+    }
+  }
+  if (!this->json_.contains("images"))
+  {
+    return;
+  }
+  for (Json& image : this->json_["images"])
+  {
+    if (!image.is_object() || !image.contains("uri") || !image["uri"].is_string())
+    {
+      continue;
+    }
+    const auto uri = image["uri"].get<std::string>();
+    if (uri.compare(0, 5, "data:") == 0)
+    {
+      continue;
+    }
+    const std::string path = folder + "/" + decode_uri(uri);
+    std::error_code error;
+    if (std::filesystem::exists(path, error) && !is_in_folder(path, folder))
+    {
+      throw GltfError("the image '" + sanitize_line(uri) + "' is not in the folder of the file");
+    }
+    std::string bytes;
+    const Status status = read_file(path, bytes);
+    const std::string type = picture_type(bytes);
+    if (!status.ok() || type.empty())
+    {
+      warnings.push_back("the image '" + sanitize_line(uri) +
+        "' is not stored in the file because " +
+        (status.ok() ? "its format is unknown" : status.message));
+      continue;
+    }
+    image.erase("uri");
+    image["bufferView"] = this->append_view(bytes.data(), bytes.size(), 0);
+    image["mimeType"] = type;
+  }
+}
+
+Json& GltfDocument::list(const char* name)
+{
+  Json& found = this->json_[name];
+  if (!found.is_array())
+  {
+    found = Json::array();
+  }
+  return found;
+}
+
+int GltfDocument::append(const char* list, Json element)
+{
+  Json& elements = this->list(list);
+  elements.push_back(std::move(element));
+  return static_cast<int>(elements.size()) - 1;
+}
+
+int GltfDocument::append_view(const void* bytes, std::size_t size, int target)
+{
+  this->buffer_.resize((this->buffer_.size() + 3) / 4 * 4);
+  Json view{ { "buffer", 0 }, { "byteOffset", this->buffer_.size() }, { "byteLength", size } };
+  if (target != 0)
+  {
+    view["target"] = target;
+  }
+  this->buffer_.append(static_cast<const char*>(bytes), size);
+  if (this->list("buffers").empty())
+  {
+    this->list("buffers").push_back(Json::object());
+  }
+  return this->append("bufferViews", std::move(view));
+}
+
+int GltfDocument::append_accessor(
+  const void* values, std::size_t size, std::size_t count, int components, int type, int target)
+{
+  const int view = this->append_view(values, size * count, target);
+  return this->append("accessors",
+    { { "bufferView", view }, { "componentType", type },
+      { "count", count / static_cast<std::size_t>(components) },
+      { "type", type_name(components) } });
+}
+
+Status GltfDocument::write(const std::string& path, bool binary) const
+{
+  Json json = this->json_;
+  if (!this->buffer_.empty())
+  {
+    Json& buffer = json["buffers"][0];
+    buffer.erase("uri");
+    buffer["byteLength"] = this->buffer_.size();
+    if (!binary)
+    {
+      buffer["uri"] = "data:application/octet-stream;base64," + base64(this->buffer_);
+    }
+  }
+  std::string text;
+  try
+  {
+    text = binary ? json.dump() : json.dump(2);
+  }
+  catch (const Json::exception&)
+  {
+    return Status::invalid_input("a name is not valid UTF-8");
+  }
+  std::string content;
+  if (binary)
+  {
+    const std::size_t size = header_size + 2 * chunk_header_size + text.size() +
+      this->buffer_.size() + this->further_chunks_.size();
+    if (size > largest_file)
+    {
+      return Status::invalid_input("a .glb file can have at most 4 GB, but " + path +
+        " would have " + std::to_string(size) + " bytes");
+    }
+    content = "glTF";
+    append_word(content, 2);
+    append_word(content, 0); // the size of the file, see below
+    append_chunk(content, json_chunk, text, ' ');
+    if (!this->buffer_.empty())
+    {
+      append_chunk(content, buffer_chunk, this->buffer_, '\0');
+    }
+    content += this->further_chunks_;
+    const auto written = static_cast<std::uint32_t>(content.size());
+    std::memcpy(content.data() + 8, &written, sizeof(written));
+  }
+  else
+  {
+    content = std::move(text);
+  }
+  Status status = write_file(path, content);
+  status.report.set("file_bytes", content.size());
+  return status;
+}
+
+Json to_gltf_json(const Vec3& v)
+{
+  return { v[0], v[1], v[2] };
+}
+
+Json to_gltf_json(const Eigen::Quaterniond& q)
+{
+  return { q.x(), q.y(), q.z(), q.w() };
+}
+
+void set_transform(Json& node, const Trs& trs)
+{
+  node["translation"] = to_gltf_json(trs.translation);
+  node["rotation"] = to_gltf_json(trs.rotation);
+  node["scale"] = to_gltf_json(trs.scale);
+}
+
+} // namespace bindpose

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -64,21 +63,12 @@ Eigen::Affine3d bind_transform(const tinygltf::Model& model, const GltfAccessors
   {
     return Eigen::Affine3d::Identity();
   }
-  const GltfNumbers inverse_binds =
-    accessors.read_finite(skin.inverseBindMatrices, TINYGLTF_TYPE_MAT4, "inverse bind matrices");
+  const std::vector<Eigen::Affine3d> inverse_binds = read_inverse_binds(accessors, skin);
   Eigen::Affine3d first = Eigen::Affine3d::Identity();
   for (std::size_t j = 0; j < skin.joints.size(); ++j)
   {
     gltf_element(model.nodes, skin.joints[j], "node");
-    if (static_cast<Index>(j) >= inverse_binds.rows())
-    {
-      throw GltfError("the skin has fewer inverse bind matrices than joints");
-    }
-    Eigen::Affine3d inverse;
-    inverse.matrix() =
-      Eigen::Map<const Eigen::Matrix4d>(inverse_binds.data() + 16 * static_cast<Index>(j));
-    inverse.makeAffine();
-    const Eigen::Affine3d map = node_to_scene[skin.joints[j]] * inverse;
+    const Eigen::Affine3d map = node_to_scene[skin.joints[j]] * inverse_binds[j];
     constexpr double tolerance = 1e-4; // matrices are stored as floats
     if (j == 0)
     {
@@ -239,12 +229,7 @@ struct GltfAsset::Reader
     {
       throw GltfError("a vertex has a coordinate that is not finite");
     }
-    this->asset_.triangles_.resize(static_cast<Index>(this->triangles_.size()), 3);
-    for (std::size_t t = 0; t < this->triangles_.size(); ++t)
-    {
-      const auto& [a, b, c] = this->triangles_[t];
-      this->asset_.triangles_.row(static_cast<Index>(t)) << a, b, c;
-    }
+    this->asset_.triangles_ = to_matrix(this->triangles_);
     Report& report = this->status_.report;
     report.set("counts.meshes", this->meshes_);
     report.set("counts.vertices", this->asset_.points_.rows());
@@ -326,29 +311,13 @@ private:
 Status GltfAsset::read(const std::string& path)
 {
   *this = GltfAsset();
-  std::string content;
-  Status status = read_file(path, content);
-  if (!status.ok())
-  {
-    return status;
-  }
-  try
-  {
-    GltfBufferFiles files;
-    files.folder = std::filesystem::path(path).parent_path().string();
-    files.folder = files.folder.empty() ? "." : files.folder;
-    const tinygltf::Model model = parse_gltf(content, files);
-    this->document_ = GltfDocument(content, model, files.folder, status.warnings);
-    Reader(*this, model, content.size(), status).read();
-  }
-  catch (const GltfError& failure)
-  {
-    status = Status::invalid_input(path + ": " + failure.sentence);
-  }
-  catch (const std::bad_alloc&)
-  {
-    status = Status::invalid_input(path + ": the file needs more memory than is available");
-  }
+  const Status status = read_gltf_file(path,
+    [this](const GltfContent& content, Status& found)
+    {
+      this->document_ =
+        GltfDocument(content.bytes, content.model, content.files.folder, found.warnings);
+      Reader(*this, content.model, content.bytes.size(), found).read();
+    });
   if (!status.ok())
   {
     *this = GltfAsset();
@@ -466,7 +435,6 @@ Status GltfAsset::replace_skins(
   std::map<std::vector<double>, int> skins; // by the transform from the mesh to the scene
   std::map<Index, Json> attributes_of_vertices; // by the first vertex
   std::set<int> edited_meshes;
-  const Json original_meshes = this->document_.list("meshes");
   int last_node = -1;
   for (const Part& part : this->parts_)
   {
@@ -484,8 +452,9 @@ Status GltfAsset::replace_skins(
       const int mesh = node["mesh"].get<int>();
       if (!edited_meshes.insert(mesh).second)
       {
-        // A second node has this mesh. Its vertices have other weights, so it needs its own mesh.
-        node["mesh"] = this->document_.append("meshes", original_meshes[mesh]);
+        // A second node has this mesh. Its vertices have other weights, so it needs its own mesh,
+        // whose weights are replaced below.
+        node["mesh"] = this->document_.append("meshes", Json(this->document_.list("meshes")[mesh]));
       }
     }
     const auto [stored, is_new] = attributes_of_vertices.insert({ part.first, Json::object() });

@@ -21,8 +21,6 @@ constexpr std::size_t header_size = 12; // bytes before the first chunk of a .gl
 constexpr std::size_t chunk_header_size = 8;
 constexpr std::uint32_t json_chunk = 0x4e4f534a;
 constexpr std::uint32_t buffer_chunk = 0x004e4942;
-// Maximum size of a file in bytes; a .glb file stores its size in 32 bits.
-constexpr std::size_t largest_file = 0xf0000000;
 
 std::uint32_t number_at(std::string_view bytes, std::size_t at)
 {
@@ -199,6 +197,10 @@ void GltfDocument::join_buffers(const tinygltf::Model& model)
       view["buffer"] = 0;
     }
   };
+  if (begins.size() < 2)
+  {
+    return;
+  }
   for (Json& view : this->list("bufferViews"))
   {
     redirect(view);
@@ -211,22 +213,12 @@ void GltfDocument::join_buffers(const tinygltf::Model& model)
     }
   }
   Json& buffers = this->list("buffers");
-  if (buffers.size() > 1)
-  {
-    buffers.erase(buffers.begin() + 1, buffers.end());
-  }
+  buffers.erase(buffers.begin() + 1, buffers.end());
 }
 
 /// Store external images in the buffer.
 void GltfDocument::embed_images(const std::string& folder, std::vector<std::string>& warnings)
 {
-  for (const char* name : { "images", "buffers", "bufferViews" })
-  {
-    if (this->json_.contains(name) && this->json_[name].empty())
-    {
-      this->json_.erase(name); // glTF does not allow empty lists
-    }
-  }
   if (!this->json_.contains("images"))
   {
     return;

@@ -69,6 +69,8 @@ public:
   /// Report: file_bytes.
   Status write(const std::string& path, bool binary) const;
 
+  /// Maximum size of a file in bytes; a .glb file stores its size in 32 bits.
+  static constexpr std::size_t largest_file = 0xf0000000;
   static constexpr int array_buffer = TINYGLTF_TARGET_ARRAY_BUFFER;
   static constexpr int element_array_buffer = TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER;
 

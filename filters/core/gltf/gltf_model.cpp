@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <new>
 #include <numeric>
 #include <string_view>
 
@@ -206,6 +207,33 @@ tinygltf::Model parse_gltf(const std::string& content, GltfBufferFiles& files)
   return model;
 }
 
+Status read_gltf_file(
+  const std::string& path, const std::function<void(const GltfContent&, Status&)>& use)
+{
+  GltfContent content;
+  Status status = read_file(path, content.bytes);
+  if (!status.ok())
+  {
+    return status;
+  }
+  try
+  {
+    const std::string folder = std::filesystem::path(path).parent_path().string();
+    content.files.folder = folder.empty() ? "." : folder;
+    content.model = parse_gltf(content.bytes, content.files);
+    use(content, status);
+  }
+  catch (const GltfError& failure)
+  {
+    status = Status::invalid_input(path + ": " + failure.sentence);
+  }
+  catch (const std::bad_alloc&)
+  {
+    status = Status::invalid_input(path + ": the file needs more memory than is available");
+  }
+  return status;
+}
+
 GltfAccessors::GltfAccessors(const tinygltf::Model& model, std::size_t file_size) : model_(model)
 {
   for (const tinygltf::Buffer& buffer : model.buffers)
@@ -372,6 +400,29 @@ std::vector<Index> read_corners(
 }
 } // namespace
 
+std::vector<Eigen::Affine3d> read_inverse_binds(
+  const GltfAccessors& accessors, const tinygltf::Skin& skin)
+{
+  std::vector<Eigen::Affine3d> inverse_binds(skin.joints.size(), Eigen::Affine3d::Identity());
+  if (skin.inverseBindMatrices < 0)
+  {
+    return inverse_binds;
+  }
+  const GltfNumbers rows =
+    accessors.read_finite(skin.inverseBindMatrices, TINYGLTF_TYPE_MAT4, "inverse bind matrices");
+  if (rows.rows() < static_cast<Index>(skin.joints.size()))
+  {
+    throw GltfError("the skin has fewer inverse bind matrices than joints");
+  }
+  for (std::size_t j = 0; j < inverse_binds.size(); ++j)
+  {
+    inverse_binds[j].matrix() =
+      Eigen::Map<const Eigen::Matrix4d>(rows.data() + 16 * static_cast<Index>(j));
+    inverse_binds[j].makeAffine();
+  }
+  return inverse_binds;
+}
+
 bool has_triangles(const tinygltf::Primitive& primitive)
 {
   const int mode = mode_of(primitive);
@@ -398,6 +449,16 @@ std::vector<std::array<Index, 3>> read_gltf_triangles(
       corners[k + 1 + flip], corners[k + 2 - flip] });
   }
   return triangles;
+}
+
+Triangles to_matrix(const std::vector<std::array<Index, 3>>& triangles)
+{
+  Triangles matrix(static_cast<Index>(triangles.size()), 3);
+  for (Index t = 0; t < matrix.rows(); ++t)
+  {
+    matrix.row(t) << triangles[t][0], triangles[t][1], triangles[t][2];
+  }
+  return matrix;
 }
 
 void set_rotation(const Eigen::Vector4d& q, Trs& trs)

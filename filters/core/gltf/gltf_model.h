@@ -5,6 +5,7 @@
 // tinygltf parses the file. Its output is not trusted: every index, count and offset is checked
 // before a value is read from a buffer.
 
+#include "base/status.h"
 #include "geometry/mesh.h"
 #include "gltf/gltf_transform.h"
 #include "gltf/tiny_gltf.h"
@@ -12,6 +13,7 @@
 #include <array>
 #include <cstddef>
 #include <exception>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -43,6 +45,20 @@ bool is_in_folder(const std::string& path, const std::string& folder);
 /// a file that is not valid, another version than 2.0, and required extensions that could change
 /// the geometry.
 tinygltf::Model parse_gltf(const std::string& content, GltfBufferFiles& files);
+
+/// A glTF file that was read and parsed.
+struct GltfContent
+{
+  std::string bytes; ///< the file
+  GltfBufferFiles files;
+  tinygltf::Model model;
+};
+
+/// Read and parse a file, and call use(content, status), which may add warnings and a report to the
+/// status. Return invalid_input, with the path in the message, if the file cannot be read, or if
+/// parse_gltf() or use() throws GltfError or std::bad_alloc.
+Status read_gltf_file(
+  const std::string& path, const std::function<void(const GltfContent&, Status&)>& use);
 
 /// Return an element of a list. Throw GltfError if there is no such element.
 template <typename Element>
@@ -92,12 +108,20 @@ private:
   std::size_t bytes_ = 0;
 };
 
+/// Return the inverse bind matrices of a skin, one per joint. They are the identity if the skin has
+/// none. Throw GltfError if there are fewer matrices than joints.
+std::vector<Eigen::Affine3d> read_inverse_binds(
+  const GltfAccessors& accessors, const tinygltf::Skin& skin);
+
 /// Report whether a primitive consists of triangles: a list, a strip or a fan.
 bool has_triangles(const tinygltf::Primitive& primitive);
 /// Return the triangles of a primitive with `vertices` vertices. Throw GltfError if a triangle is
 /// not complete or has an unknown vertex.
 std::vector<std::array<Index, 3>> read_gltf_triangles(
   const GltfAccessors& accessors, const tinygltf::Primitive& primitive, Index vertices);
+
+/// Return the triangles as a matrix.
+Triangles to_matrix(const std::vector<std::array<Index, 3>>& triangles);
 
 /// The local transform of a node: a matrix, or translation, rotation and scale.
 struct GltfNodeTransform

@@ -8,8 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
-#include <filesystem>
 #include <map>
 #include <set>
 
@@ -107,16 +105,7 @@ SkinNodes read_joints(const tinygltf::Model& model, const GltfAccessors& accesso
     }
     joint = static_cast<int>(j);
   }
-  GltfNumbers inverse_binds;
-  if (from.inverseBindMatrices >= 0)
-  {
-    inverse_binds =
-      accessors.read_finite(from.inverseBindMatrices, TINYGLTF_TYPE_MAT4, "inverse bind matrices");
-    if (inverse_binds.rows() < static_cast<Index>(from.joints.size()))
-    {
-      throw GltfError("the skin has fewer inverse bind matrices than joints");
-    }
-  }
+  const Transforms inverse_binds = read_inverse_binds(accessors, from);
   const Transforms global = nodes.scene_transforms();
   std::set<std::string> names;
   for (std::size_t j = 0; j < from.joints.size(); ++j)
@@ -124,14 +113,7 @@ SkinNodes read_joints(const tinygltf::Model& model, const GltfAccessors& accesso
     const int id = from.joints[j];
     GltfJoint joint;
     joint.posed = global[id];
-    if (inverse_binds.rows() > 0)
-    {
-      Eigen::Affine3d inverse;
-      inverse.matrix() =
-        Eigen::Map<const Eigen::Matrix4d>(inverse_binds.data() + 16 * static_cast<Index>(j));
-      inverse.makeAffine();
-      joint.rest = inverse.inverse();
-    }
+    joint.rest = inverse_binds[j].inverse();
     if (!joint.rest.matrix().allFinite() || !joint.posed.matrix().allFinite())
     {
       throw GltfError(
@@ -760,11 +742,7 @@ void read_model(const std::string& path, const tinygltf::Model& model, std::size
   {
     skin.texture.col(1) = 1.0 - skin.texture.col(1).array();
   }
-  skin.triangles.resize(static_cast<Index>(parts.triangles.size()), 3);
-  for (Index t = 0; t < skin.triangles.rows(); ++t)
-  {
-    skin.triangles.row(t) << parts.triangles[t][0], parts.triangles[t][1], parts.triangles[t][2];
-  }
+  skin.triangles = to_matrix(parts.triangles);
   std::optional<std::string> animation;
   if (skin_id >= 0)
   {
@@ -799,32 +777,12 @@ void read_model(const std::string& path, const tinygltf::Model& model, std::size
 Status read_gltf_skin(const std::string& path, GltfSkin& skin)
 {
   skin = GltfSkin();
-  std::string content;
-  Status status = read_file(path, content);
-  if (!status.ok())
-  {
-    return status;
-  }
-  try
-  {
-    GltfBufferFiles files;
-    files.folder = std::filesystem::path(path).parent_path().string();
-    if (files.folder.empty())
+  const Status status = read_gltf_file(path,
+    [&](const GltfContent& content, Status& found)
     {
-      files.folder = ".";
-    }
-    const tinygltf::Model model = parse_gltf(content, files);
-    read_model(path, model, content.size(), skin, status);
-    skin.buffer_files = std::move(files.paths);
-  }
-  catch (const GltfError& failure)
-  {
-    status = Status::invalid_input(path + ": " + failure.sentence);
-  }
-  catch (const std::bad_alloc&)
-  {
-    status = Status::invalid_input(path + ": the file needs more memory than is available");
-  }
+      read_model(path, content.model, content.bytes.size(), skin, found);
+      skin.buffer_files = content.files.paths;
+    });
   if (!status.ok())
   {
     skin = GltfSkin();

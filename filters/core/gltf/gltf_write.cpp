@@ -16,9 +16,6 @@ namespace bindpose
 
 namespace
 {
-// Maximum size of a file in bytes; a .glb file stores its size in 32 bits.
-constexpr std::size_t largest_file = 0xf0000000;
-
 using Transforms = std::vector<Eigen::Affine3d>;
 
 // ---- Positions of vertices ---------------------------------------------------------------------
@@ -340,7 +337,7 @@ Status write_gltf_skin(ExecutionContext& context, const std::string& path, const
   const std::size_t frame_bytes = morph ? 24 * static_cast<std::size_t>(skin.points.rows()) : 0;
   if (skin.frames.size() * (frame_bytes + 40 * skin.joints.size()) +
       static_cast<std::size_t>(skin.points.rows()) * (36 + 6 * packed.weights_per_vertex) >
-    largest_file)
+    GltfDocument::largest_file)
   {
     return Status::invalid_input("a .glb file can have at most 4 GB; use fewer frames or joints");
   }

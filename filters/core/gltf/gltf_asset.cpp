@@ -1,7 +1,10 @@
 #include "gltf/gltf_asset.h"
 
+#include "geometry/simplex_locator.h"
+#include "gltf/gltf_animation.h"
 #include "gltf/gltf_joints.h"
 #include "gltf/gltf_model.h"
+#include "gltf/gltf_pose_error.h"
 #include "gltf/gltf_weights.h"
 #include "io/text_scanner.h"
 
@@ -83,53 +86,32 @@ Eigen::Affine3d bind_transform(const tinygltf::Model& model, const GltfAccessors
   return first;
 }
 
-/// Replace the weights of each vertex that no triangle uses by those of the nearest vertex of a
+/// Replace the weights of each vertex that no triangle uses by those of the nearest point of a
 /// triangle.
-void copy_nearest_weights(const Points& points, const Triangles& triangles, Weights& weights)
+void fill_unused_rows(const Points& points, const Triangles& triangles, Weights& weights)
 {
   std::vector<char> used(static_cast<std::size_t>(points.rows()), 0);
   for (Index k = 0; k < triangles.size(); ++k)
   {
     used[triangles.data()[k]] = 1;
   }
-  std::vector<Index> sorted; // vertices of triangles, by x
-  for (Index v = 0; v < points.rows(); ++v)
+  if (std::all_of(used.begin(), used.end(), [](char vertex) { return vertex != 0; }))
   {
-    if (used[v])
-    {
-      sorted.push_back(v);
-    }
+    return;
   }
-  const auto by_x = [&](Index a, Index b)
-  { return std::make_pair(points(a, 0), a) < std::make_pair(points(b, 0), b); };
-  std::sort(sorted.begin(), sorted.end(), by_x);
+  const SimplexLocator locator(points, triangles);
   for (Index v = 0; v < points.rows(); ++v)
   {
     if (used[v])
     {
       continue;
     }
-    double nearest = std::numeric_limits<double>::infinity();
-    Index source = -1;
-    const auto visit = [&](Index other)
+    const SimplexLocation nearest = locator.locate(points.row(v));
+    weights.row(v).setZero();
+    for (int k = 0; k < 3; ++k)
     {
-      const double distance = (points.row(other) - points.row(v)).squaredNorm();
-      if (distance < nearest)
-      {
-        nearest = distance;
-        source = other;
-      }
-      const double dx = points(other, 0) - points(v, 0);
-      return dx * dx <= nearest; // farther vertices are not nearer
-    };
-    const auto middle = std::lower_bound(sorted.begin(), sorted.end(), v, by_x);
-    for (auto at = middle; at != sorted.end() && visit(*at); ++at)
-    {
+      weights.row(v) += nearest.barycentric[k] * weights.row(triangles(nearest.element, k)).eval();
     }
-    for (auto at = middle; at != sorted.begin() && visit(*(at - 1)); --at)
-    {
-    }
-    weights.row(v) = weights.row(source);
   }
 }
 
@@ -325,18 +307,10 @@ Status GltfAsset::read(const std::string& path)
   return status;
 }
 
-/// Add the nodes of the joints, below the scene or below an animated parent of all nodes with
-/// triangles.
-GltfJointNodes GltfAsset::add_skeleton(
-  const std::vector<GltfJoint>& joints, bool rest_joint, Status& status)
+GltfJointNodes GltfAsset::add_skeleton(const std::vector<GltfJoint>& joints,
+  const std::vector<Trs>& local_transforms, bool rest_joint, Status& status)
 {
-  std::vector<Eigen::Affine3d> exact_maps, stored_maps;
-  for (const GltfJoint& joint : joints)
-  {
-    exact_maps.push_back(joint.rest);
-  }
-  const GltfJointNodes nodes =
-    append_joints(this->document_, joints, local_maps(joints, exact_maps, stored_maps), rest_joint);
+  const GltfJointNodes nodes = append_joints(this->document_, joints, local_transforms, rest_joint);
   std::set<int> meshes;
   std::map<int, Index> moved_meshes; // per animated node: number of the meshes that it moves
   for (const Part& part : this->parts_)
@@ -398,25 +372,37 @@ GltfJointNodes GltfAsset::add_skeleton(
   return nodes;
 }
 
-Status GltfAsset::set_skin(
-  const std::vector<GltfJoint>& joints, const Weights& weights, Index maximum_influences)
+Status GltfAsset::check(const GltfSkin& skin, Index maximum_influences) const
 {
-  if (weights.rows() != this->points_.rows() ||
-    weights.cols() != static_cast<Index>(joints.size()) || joints.empty())
+  if (skin.weights.rows() != this->points_.rows() ||
+    skin.weights.cols() != static_cast<Index>(skin.joints.size()) || skin.joints.empty())
   {
-    return Status::invalid_input("the weights have " + std::to_string(weights.rows()) +
-      " rows and " + std::to_string(weights.cols()) + " columns; expected " +
-      std::to_string(this->points_.rows()) + " rows and " + std::to_string(joints.size()) +
+    return Status::invalid_input("the weights have " + std::to_string(skin.weights.rows()) +
+      " rows and " + std::to_string(skin.weights.cols()) + " columns; expected " +
+      std::to_string(this->points_.rows()) + " rows and " + std::to_string(skin.joints.size()) +
       " columns, at least one");
   }
-  const Status status = check_joints(joints);
+  if (!fits_in_float(skin.weights) || maximum_influences < 0)
+  {
+    return Status::invalid_input(maximum_influences < 0
+        ? "the number of influences is negative"
+        : "the weights contain a value that is not a finite float");
+  }
+  const Status status = check_joints(skin.joints);
+  return status.ok() ? check_frames(skin, GltfAnimation::joints) : status;
+}
+
+Status GltfAsset::set_skin(
+  ExecutionContext& context, const GltfSkin& skin, Index maximum_influences)
+{
+  const Status status = this->check(skin, maximum_influences);
   if (!status.ok())
   {
     return status;
   }
   try
   {
-    return this->replace_skins(joints, weights, maximum_influences);
+    return this->replace_skins(context, skin, maximum_influences);
   }
   catch (const Json::exception& error) // a value of the file has a wrong type
   {
@@ -425,13 +411,49 @@ Status GltfAsset::set_skin(
 }
 
 Status GltfAsset::replace_skins(
-  const std::vector<GltfJoint>& joints, const Weights& weights, Index maximum_influences)
+  ExecutionContext& context, const GltfSkin& skin, Index maximum_influences)
 {
+  Weights weights = skin.weights;
+  fill_unused_rows(this->points_, this->triangles_, weights);
+  const GltfWeights packed = to_gltf_weights(weights, maximum_influences);
+  std::vector<Eigen::Affine3d> exact_maps, stored_maps;
+  for (const GltfJoint& joint : skin.joints)
+  {
+    exact_maps.push_back(joint.posed);
+  }
+  const std::vector<Trs> local_transforms = local_maps(skin.joints, exact_maps, stored_maps);
   Status status;
-  Weights all = weights;
-  copy_nearest_weights(this->points_, this->triangles_, all);
-  const GltfWeights packed = to_gltf_weights(all, maximum_influences);
-  const GltfJointNodes nodes = this->add_skeleton(joints, packed.rest_joint, status);
+  const GltfJointNodes nodes =
+    this->add_skeleton(skin.joints, local_transforms, packed.rest_joint, status);
+  this->attach_skin(skin.joints, packed, nodes);
+  remove_unused_skins(this->document_);
+
+  const GltfStoredSkin stored{ this->points_, skin.joints, weights, packed };
+  const double diagonal =
+    std::max(bounding_box(this->points_, this->triangles_).diagonal(), 1e-300);
+  Report& report = status.report;
+  report.set("counts.joints", skin.joints.size());
+  report_weights(packed, status);
+  report.set("pose_error", largest_pose_error(stored, exact_maps, stored_maps) / diagonal);
+  if (!skin.frames.empty())
+  {
+    double error = 0.0;
+    const Status animated =
+      append_joint_animation(context, this->document_, skin, nodes, stored, error);
+    if (!animated.ok())
+    {
+      return animated;
+    }
+    report.set("counts.frames", skin.frames.size());
+    report.set("animation_error", error / diagonal);
+  }
+  return status;
+}
+
+/// Append one skin per transform from a mesh to the scene, and give the weights to the primitives.
+void GltfAsset::attach_skin(
+  const std::vector<GltfJoint>& joints, const GltfWeights& packed, const GltfJointNodes& nodes)
+{
   std::map<std::vector<double>, int> skins; // by the transform from the mesh to the scene
   std::map<Index, Json> attributes_of_vertices; // by the first vertex
   std::set<int> edited_meshes;
@@ -467,11 +489,6 @@ Status GltfAsset::replace_skins(
     erase_weights(attributes);
     attributes.update(stored->second);
   }
-  remove_unused_skins(this->document_);
-  Report& report = status.report;
-  report.set("counts.joints", joints.size());
-  report_weights(packed, status);
-  return status;
 }
 
 Status GltfAsset::write(const std::string& path, bool binary) const

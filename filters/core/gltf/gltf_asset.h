@@ -3,10 +3,12 @@
 
 // A glTF file whose meshes get a new skin. Everything else in the file is kept.
 
+#include "base/execution.h"
 #include "geometry/mesh.h"
 #include "gltf/gltf_document.h"
 #include "gltf/gltf_joints.h"
 #include "gltf/gltf_skin.h"
+#include "gltf/gltf_weights.h"
 
 #include <string>
 #include <vector>
@@ -41,15 +43,19 @@ public:
   /// moves such a node, its motion is lost, unless the motion is that of a common parent of all
   /// nodes with triangles: then the joints are added below this parent. Lost motions are warnings.
   ///
-  /// Points and lines of a mesh get the weights of the nearest vertex of a triangle.
-  /// @param joints in the rest pose; GltfJoint::rest is in scene coordinates
-  /// @param weights #V x #joints, see write_gltf_skin()
+  /// Points and lines of a mesh get the weights of the nearest point of a triangle.
+  /// @param skin joints, weights (#V x #joints, see write_gltf_skin()) and frames. Frames become an
+  /// animation of the joints; animations of the file are kept. Other members are not used.
+  /// Transforms of joints are in scene coordinates.
   /// @param maximum_influences maximum number of weights kept per vertex; 0: no limit
   ///
-  /// Report: counts.joints, counts.dropped_weights, sets, dropped_share, rest_joint (see
-  /// write_gltf_skin()), losses[] (one phrase for each lost motion).
-  Status set_skin(
-    const std::vector<GltfJoint>& joints, const Weights& weights, Index maximum_influences);
+  /// Report: counts.joints, counts.frames, counts.dropped_weights, sets, dropped_share, rest_joint,
+  /// pose_error, animation_error (see write_gltf_skin()), losses[] (one phrase for each lost
+  /// motion).
+  ///
+  /// Return invalid_input for sizes that do not match and values that are not finite floats,
+  /// canceled after a request, which is checked once per frame.
+  Status set_skin(ExecutionContext& context, const GltfSkin& skin, Index maximum_influences);
 
   /// Write the file, as .glb or as .gltf with all data in the same file. Report: file_bytes.
   Status write(const std::string& path, bool binary) const;
@@ -65,10 +71,14 @@ private:
   };
   struct Reader;
 
-  Status replace_skins(
-    const std::vector<GltfJoint>& joints, const Weights& weights, Index maximum_influences);
-  GltfJointNodes add_skeleton(
-    const std::vector<GltfJoint>& joints, bool rest_joint, Status& status);
+  Status check(const GltfSkin& skin, Index maximum_influences) const;
+  Status replace_skins(ExecutionContext& context, const GltfSkin& skin, Index maximum_influences);
+  /// Add the nodes of the joints, below the scene or below an animated parent of all nodes with
+  /// triangles.
+  GltfJointNodes add_skeleton(const std::vector<GltfJoint>& joints,
+    const std::vector<Trs>& local_transforms, bool rest_joint, Status& status);
+  void attach_skin(
+    const std::vector<GltfJoint>& joints, const GltfWeights& packed, const GltfJointNodes& nodes);
 
   GltfDocument document_;
   Points points_;

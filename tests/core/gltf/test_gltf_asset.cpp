@@ -105,6 +105,10 @@ std::vector<GltfJoint> two_joints()
   joints[1].parent = 0;
   joints[1].rest.translation() = Vec3(1, 2, 4);
   joints[1].rest.linear() = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  for (GltfJoint& joint : joints)
+  {
+    joint.posed = joint.rest;
+  }
   return joints;
 }
 
@@ -115,6 +119,14 @@ Weights weights_of(const Points& points)
   weights.col(0) = 0.5 + 0.4 * points.col(0).array().sin();
   weights.col(1) = 1.0 - weights.col(0).array();
   return weights;
+}
+
+GltfSkin make_skin(std::vector<GltfJoint> joints, Weights weights)
+{
+  GltfSkin skin;
+  skin.joints = std::move(joints);
+  skin.weights = std::move(weights);
+  return skin;
 }
 
 struct File
@@ -178,6 +190,7 @@ class GltfAssets : public testing::Test
 protected:
   const test::Folder folder_;
   GltfAsset asset_;
+  ExecutionContext context_;
 
   std::string write(const GltfDocument& document) const
   {
@@ -190,7 +203,8 @@ protected:
   {
     Status status = this->asset_.read(this->write(document));
     EXPECT_TRUE(status.ok()) << status.message;
-    status = this->asset_.set_skin(two_joints(), weights_of(this->asset_.points()), 4);
+    status = this->asset_.set_skin(
+      this->context_, make_skin(two_joints(), weights_of(this->asset_.points())), 4);
     EXPECT_TRUE(status.ok()) << status.message;
     EXPECT_TRUE(this->asset_.write(this->folder_ / "out.glb", true).ok());
     return status;
@@ -247,7 +261,7 @@ TEST_F(GltfAssets, TheFileHasTheRestPoseAndPosesOfTheSkin)
     motion.linear() = Eigen::AngleAxisd(0.4, Vec3::UnitX()).toRotationMatrix();
     motion.translation() = Vec3(0.1, 0.2, 0.3);
   }
-  // the points follow the nearest vertex of the strip
+  // the points follow the nearest point of the strip
   const Points followed = file.skinned(3, 1, -1, motion);
   EXPECT_LT((followed - points.bottomRows(4)).cwiseAbs().maxCoeff(), 1e-5);
 }
@@ -329,6 +343,60 @@ TEST_F(GltfAssets, MotionsThatAreLostAreNamed)
     1e-5);
 }
 
+TEST_F(GltfAssets, ThePoseOfTheJointsAndTheFramesAreWritten)
+{
+  ASSERT_TRUE(this->asset_.read(this->write(scene())).ok());
+  const Points& points = this->asset_.points();
+  GltfSkin skin = make_skin(two_joints(), weights_of(points));
+  Eigen::Affine3d motion = Eigen::Affine3d::Identity();
+  motion.linear() = Eigen::AngleAxisd(0.4, Vec3::UnitX()).toRotationMatrix();
+  motion.translation() = Vec3(0.1, 0.2, 0.3);
+  skin.joints[1].posed = motion * skin.joints[1].rest;
+  for (int k = 0; k < 3; ++k)
+  {
+    skin.frames.emplace_back();
+    skin.frames[k].posed = { skin.joints[0].rest, skin.joints[1].rest };
+    skin.frames[k].posed[1].translation()[0] += 0.5 * k;
+  }
+  skin.frames_per_second = 12.0;
+  const Status status = this->asset_.set_skin(this->context_, skin, 0);
+  ASSERT_TRUE(status.ok()) << status.message;
+  EXPECT_LT(status.report.number("pose_error", 1), 1e-6);
+  EXPECT_LT(status.report.number("animation_error", 1), 1e-6);
+  EXPECT_EQ(status.report.number("counts.frames", 0), 3);
+  ASSERT_TRUE(this->asset_.write(this->folder_ / "out.glb", true).ok());
+  const File file(this->folder_ / "out.glb");
+  const Points posed = file.skinned(3, 0, -1, motion);
+  for (Index v = 0; v < posed.rows(); ++v)
+  {
+    const Vec3 p = points.row(16 + v);
+    const Vec3 expected = p + skin.weights(16 + v, 1) * (motion * p - p);
+    EXPECT_LT((posed.row(v).transpose() - expected).norm(), 1e-5);
+  }
+  GltfSkin read;
+  ASSERT_TRUE(read_gltf_skin(this->folder_ / "out.glb", read).ok());
+  EXPECT_EQ(read.frames_per_second, 12.0);
+  ASSERT_EQ(read.frames.size(), 3u);
+  for (int k = 0; k < 3; ++k)
+  {
+    for (int j = 0; j < 2; ++j)
+    {
+      EXPECT_LT(
+        (read.frames[k].posed[j].matrix() - skin.frames[k].posed[j].matrix()).norm(), 1e-5);
+    }
+  }
+}
+
+TEST_F(GltfAssets, ACancelWhileFramesAreAddedIsReported)
+{
+  ASSERT_TRUE(this->asset_.read(this->write(scene())).ok());
+  GltfSkin skin = make_skin(two_joints(), weights_of(this->asset_.points()));
+  skin.frames.resize(1);
+  skin.frames[0].posed = { skin.joints[0].rest, skin.joints[1].rest };
+  this->context_.request_cancel();
+  EXPECT_EQ(this->asset_.set_skin(this->context_, skin, 0).code, StatusCode::canceled);
+}
+
 TEST_F(GltfAssets, AnOldSkinIsReplaced)
 {
   this->rig(scene());
@@ -339,7 +407,7 @@ TEST_F(GltfAssets, AnOldSkinIsReplaced)
   EXPECT_LT((again.points() - this->asset_.points()).cwiseAbs().maxCoeff(), 1e-5);
   std::vector<GltfJoint> one(1);
   one[0].name = "only";
-  status = again.set_skin(one, Weights::Ones(again.points().rows(), 1), 0);
+  status = again.set_skin(this->context_, make_skin(one, Weights::Ones(again.points().rows(), 1)), 0);
   ASSERT_TRUE(status.ok()) << status.message;
   ASSERT_TRUE(again.write(this->folder_ / "again.glb", true).ok());
   const File file(this->folder_ / "again.glb");
@@ -442,11 +510,12 @@ TEST_F(GltfAssets, WrongInputIsNamed)
   status = this->asset_.read(this->folder_ / "missing.glb");
   EXPECT_EQ(status.code, StatusCode::invalid_input);
   ASSERT_TRUE(this->asset_.read(this->write(scene())).ok());
-  status = this->asset_.set_skin(two_joints(), Weights::Ones(3, 2), 0);
+  status = this->asset_.set_skin(this->context_, make_skin(two_joints(), Weights::Ones(3, 2)), 0);
   EXPECT_EQ(status.message,
     "the weights have 3 rows and 2 columns; expected 24 rows and 2 columns, at least one");
   std::vector<GltfJoint> cyclic = two_joints();
   cyclic[0].parent = 1;
-  status = this->asset_.set_skin(cyclic, weights_of(this->asset_.points()), 0);
+  status = this->asset_.set_skin(
+    this->context_, make_skin(cyclic, weights_of(this->asset_.points())), 0);
   EXPECT_THAT(status.message, HasSubstr("cycle"));
 }

@@ -7,6 +7,7 @@
 #include "io/report_json.h"
 #include "io/text_scanner.h"
 #include "report_field_data.h"
+#include "vtkAssetReader.h"
 #include "vtkAutomaticHandles.h"
 #include "vtkBindposeAlgorithm.h"
 #include "vtkFarthestPointHandles.h"
@@ -260,6 +261,15 @@ vtkSmartPointer<vtkDataSet> Session::read_any(const std::string& path)
   return this->read(path);
 }
 
+vtkSmartPointer<vtkPolyData> Session::read_asset(const std::string& path)
+{
+  vtkNew<vtkAssetReader> reader;
+  reader->SetFileName(path.c_str());
+  return this->run_before(reader, "read", reading_fraction)
+    ? vtkPolyData::SafeDownCast(reader->GetOutput())
+    : nullptr;
+}
+
 vtkSmartPointer<vtkPolyData> Session::read_handles(const std::string& value, vtkDataSet* surface)
 {
   const std::size_t colon = value.find(':');
@@ -344,24 +354,8 @@ bool Session::write(vtkDataSet* data, const std::string& path)
   return this->run_stage(writer, "write", main_end_fraction, 1.0, Merge::nothing);
 }
 
-bool Session::write_rig(vtkDataSet* mesh, vtkPolyData* handles,
-  const std::vector<vtkSmartPointer<vtkDataSet>>& frames, double frames_per_second, bool morph,
-  const std::string& path)
+bool Session::write_rig(vtkGLTFSkinWriter* writer)
 {
-  vtkNew<vtkGLTFSkinWriter> writer;
-  writer->SetInputData(0, mesh);
-  if (handles)
-  {
-    writer->SetHandlesData(handles);
-  }
-  for (const auto& frame : frames)
-  {
-    writer->AddFrameData(frame);
-  }
-  writer->SetFramesPerSecond(frames_per_second);
-  writer->SetAnimation(morph ? vtkGLTFSkinWriter::MORPH : vtkGLTFSkinWriter::JOINTS);
-  writer->SetMaximumInfluences(this->arguments_.integer("gltf-maximum-influences"));
-  writer->SetFileName(path.c_str());
   writer->SetOverwrite(this->arguments_.has("overwrite"));
   // Give the writer an empty report, so that the loop below adds the prefix "gltf." only to the
   // writer's entries, not to those of the verb.

@@ -13,6 +13,7 @@
 #include <chrono>
 
 class vtkBindposeAlgorithm;
+class vtkGLTFSkinWriter;
 
 namespace bindpose::cli
 {
@@ -67,6 +68,8 @@ public:
   vtkSmartPointer<vtkDataSet> read(const std::string& path);
   /// Read like read(), including .tgf handle files.
   vtkSmartPointer<vtkDataSet> read_any(const std::string& path);
+  /// Read the meshes of a glTF file that gets a new rig; return null on failure.
+  vtkSmartPointer<vtkPolyData> read_asset(const std::string& path);
   /// Return the handles for the value of --handles, which is a file, auto[:N] (N points on the
   /// surface) or skeleton[:N] (N bones inside the surface). Return null on failure.
   vtkSmartPointer<vtkPolyData> read_handles(const std::string& value, vtkDataSet* surface);
@@ -80,12 +83,8 @@ public:
   /// files before the first commit, so that a failed write leaves no incomplete group.
   bool write_uncommitted(vtkDataSet* data, const std::string& path, AtomicFile& file);
   bool commit(AtomicFile& file);
-  /// Write a rig as glTF: a mesh with weights, its handles (null: none), and the frames of an
-  /// animation. If `morph` is true, the frames are stored as morph targets, otherwise as transforms
-  /// of joints.
-  bool write_rig(vtkDataSet* mesh, vtkPolyData* handles,
-    const std::vector<vtkSmartPointer<vtkDataSet>>& frames, double frames_per_second, bool morph,
-    const std::string& path);
+  /// Run a writer of glTF files. Its report entries get the prefix "gltf.".
+  bool write_rig(vtkGLTFSkinWriter* writer);
   bool write_text(const std::string& text, const std::string& path);
 
   /// End the verb: write the report, print an error line, and return the exit code.

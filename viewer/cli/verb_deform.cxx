@@ -10,6 +10,7 @@
 #include "io/atomic_file.h"
 #include "pictures/sequence_file.h"
 #include "vtkFullARAP.h"
+#include "vtkGLTFSkinWriter.h"
 #include "vtkMovingLeastSquaresWarp.h"
 #include "vtkPoseHandles.h"
 #include "vtkReducedARAP.h"
@@ -138,7 +139,12 @@ void write_rig(Session& session, vtkDataSet* mesh, vtkPolyData* handles, vtkPose
     session.fail(memory);
     return;
   }
-  std::vector<vtkSmartPointer<vtkDataSet>> posed_meshes;
+  vtkNew<vtkGLTFSkinWriter> writer;
+  writer->SetInputData(0, mesh);
+  if (skinned)
+  {
+    writer->SetHandlesData(is_static ? vtkPolyData::SafeDownCast(pose->GetOutput()) : handles);
+  }
   for (int k = 0; k < frames.count && !is_static; ++k)
   {
     if (!frames.deform(k))
@@ -147,14 +153,13 @@ void write_rig(Session& session, vtkDataSet* mesh, vtkPolyData* handles, vtkPose
     }
     auto copy = vtk::TakeSmartPointer(deformation->GetOutput()->NewInstance());
     copy->ShallowCopy(deformation->GetOutput());
-    posed_meshes.push_back(copy);
+    writer->AddFrameData(copy);
   }
-  auto* posed = vtkPolyData::SafeDownCast(pose->GetOutput());
-  if (session.write_rig(mesh,
-        !skinned      ? nullptr
-          : is_static ? posed
-                      : handles,
-        posed_meshes, frames.per_second, morph, output))
+  writer->SetFramesPerSecond(frames.per_second);
+  writer->SetAnimation(morph ? vtkGLTFSkinWriter::MORPH : vtkGLTFSkinWriter::JOINTS);
+  writer->SetMaximumInfluences(arguments.integer("gltf-maximum-influences"));
+  writer->SetFileName(output.c_str());
+  if (session.write_rig(writer))
   {
     session.report().set("counts.frames", frames.count);
   }

@@ -3,17 +3,15 @@
 // filter may add points to the input mesh. In this case the weights are transferred to the original
 // points, unless the output is a .vtu file.
 #include "cli/session.h"
-#include "cli/set_options.h"
 #include "cli/verbs.h"
+#include "cli/weights_stage.h"
 
 #include "conversion.h"
 #include "file_kind.h"
 #include "report_field_data.h"
 #include "vtkBoneEndpointWeights.h"
-#include "vtkBoundedBiharmonicWeights.h"
-#include "vtkMonotoneWeights.h"
-#include "vtkTransferWeights.h"
-#include "vtkUnconstrainedWeights.h"
+#include "vtkGLTFSkinWriter.h"
+#include "vtkWeightsAlgorithm.h"
 #include "weights_input.h"
 
 #include "vtkCellType.h"
@@ -30,53 +28,6 @@ namespace bindpose::cli
 
 namespace
 {
-vtkSmartPointer<vtkWeightsAlgorithm> make_method(const Arguments& arguments)
-{
-  const std::string method = arguments.text("method");
-  if (method == "bounded-biharmonic")
-  {
-    const auto weights = vtkSmartPointer<vtkBoundedBiharmonicWeights>::New();
-    set_bounded_weights_options(arguments, weights.Get());
-    return weights;
-  }
-  if (method == "monotone")
-  {
-    const auto weights = vtkSmartPointer<vtkMonotoneWeights>::New();
-    set_bounded_weights_options(arguments, weights.Get());
-    return weights;
-  }
-  const auto weights = vtkSmartPointer<vtkUnconstrainedWeights>::New();
-  weights->SetMethod(method);
-  return weights;
-}
-
-/// Set the terms of the weights filter: additional constraints and energies.
-/// @param mesh  the input, before it is filled with tets
-bool set_terms(Session& session, vtkDataSet* mesh, vtkWeightsAlgorithm* weights)
-{
-  const Arguments& arguments = session.arguments();
-  for (const char* option : { "rigidity", "rigid-set", "lower", "upper", "pinned" })
-  {
-    if (arguments.is_typed(option) &&
-      !mesh->GetPointData()->GetArray(arguments.text(option).c_str()))
-    {
-      return session.invalid("--" + std::string(option) + ": the mesh has no point array '" +
-        arguments.text(option) + "'");
-    }
-  }
-  const std::string axis = arguments.text("mirror");
-  if (axis != "none")
-  {
-    double box[6];
-    mesh->GetBounds(box);
-    weights->SetMirrorNormal(axis == "x", axis == "y", axis == "z");
-    weights->SetMirrorOrigin(
-      0.5 * (box[0] + box[1]), 0.5 * (box[2] + box[3]), 0.5 * (box[4] + box[5]));
-  }
-  set_weight_terms_options(arguments, weights);
-  return true;
-}
-
 bool is_tets(vtkDataSet* data)
 {
   return data->GetNumberOfCells() > 0 && data->GetCellType(0) == VTK_TETRA;
@@ -142,14 +93,6 @@ bool add_region_handles(Session& session, vtkDataSet* mesh, const std::string& a
   return true;
 }
 
-/// Return a shallow copy of the mesh to which arrays can be added.
-vtkSmartPointer<vtkDataSet> shallow_copy(vtkDataSet* data)
-{
-  auto copy = vtk::TakeSmartPointer(data->NewInstance());
-  copy->ShallowCopy(data);
-  return copy;
-}
-
 /// Write the mesh, with the array EndpointWeights if requested; glTF files include the joints.
 void write_with_endpoints(
   Session& session, vtkDataSet* mesh, vtkPolyData* handles, const std::string& output)
@@ -163,7 +106,12 @@ void write_with_endpoints(
   const std::string extension = file_extension(output);
   if (extension == "glb" || extension == "gltf")
   {
-    session.write_rig(mesh, handles, {}, 24.0, false, output);
+    vtkNew<vtkGLTFSkinWriter> writer;
+    writer->SetInputData(0, mesh);
+    writer->SetHandlesData(handles);
+    writer->SetMaximumInfluences(arguments.integer("gltf-maximum-influences"));
+    writer->SetFileName(output.c_str());
+    session.write_rig(writer);
     return;
   }
   const auto method = methods.find(arguments.text("endpoints"));
@@ -226,9 +174,8 @@ void run_weights(Session& session)
   {
     return;
   }
-  const auto weights = make_method(arguments);
-  set_weights_options(arguments, weights.Get());
-  if (!set_terms(session, mesh, weights))
+  const auto weights = make_weights(session, mesh);
+  if (!weights)
   {
     return;
   }
@@ -261,35 +208,10 @@ void run_weights(Session& session)
     write_with_endpoints(session, data, handles, output);
     return;
   }
-  // The weights filter may have added points at handles, so transfer the weights to the points of
-  // the input.
-  vtkNew<vtkTransferWeights> transfer;
-  transfer->SetInputData(0, mesh);
-  transfer->SetInputData(1, weights->GetOutput());
-  const Report weights_report = session.report();
-  if (!session.run(transfer, "transfer", 0.98, 1.0, Merge::numbers))
+  if (const auto result = transfer_to_points(session, mesh, weights->GetOutput()))
   {
-    return;
+    write_with_endpoints(session, result, handles, output);
   }
-  // If both filters report the same entry, keep that of the weights filter.
-  session.report().merge(weights_report);
-  auto result = shallow_copy(transfer->GetOutput());
-  vtkNew<vtkTransferWeights> raw_transfer;
-  if (arguments.has("keep-raw"))
-  {
-    raw_transfer->SetArrayName("RawWeights");
-    raw_transfer->SetInputData(0, result);
-    raw_transfer->SetInputData(1, weights->GetOutput());
-    if (!session.run(raw_transfer, "transfer_raw", 0.98, 1.0, Merge::nothing))
-    {
-      return;
-    }
-    result = shallow_copy(raw_transfer->GetOutput());
-  }
-  Report stored_report = read_report(transfer->GetOutput());
-  stored_report.merge(read_report(weights->GetOutput()));
-  attach_report(result, stored_report);
-  write_with_endpoints(session, result, handles, output);
 }
 
 } // namespace bindpose::cli

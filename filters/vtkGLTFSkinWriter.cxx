@@ -1,9 +1,11 @@
-// Connects the kernel of io/gltf_skin.h to VTK. The kernel writes the file. This filter converts
-// the mesh to triangles, the handles to joints, and the frames to positions of points and joints.
+// Connects the kernels of gltf/gltf_skin.h and gltf/gltf_asset.h to VTK. They write the file. This
+// filter converts the mesh to triangles, the handles to joints, and the frames to positions of
+// points and joints.
 #include "vtkGLTFSkinWriter.h"
 
 #include "base/execution.h"
 #include "file_kind.h"
+#include "gltf/gltf_asset.h"
 #include "gltf_data.h"
 #include "io/atomic_file.h"
 #include "io/text_scanner.h"
@@ -259,6 +261,47 @@ Status read_poses(const std::string& path, const Handles& handles, const Pose& b
   skin.frames_per_second = sequence.frames_per_second;
   return status;
 }
+
+/// Return invalid_input if the points are not those of the asset.
+Status check_asset_points(const std::string& path, const GltfAsset& asset, const Points& points)
+{
+  const std::string cause = asset.points().rows() != points.rows() ? "has " +
+      std::to_string(points.rows()) + " points, not " + std::to_string(asset.points().rows())
+                                                                   : "has other points";
+  constexpr double tolerance = 1e-5; // in bounding-box diagonals; files store floats
+  const double diagonal = bounding_box(asset.points(), asset.triangles()).diagonal();
+  const bool matches = asset.points().rows() == points.rows() &&
+    (asset.points() - points).cwiseAbs().maxCoeff() <= tolerance * diagonal;
+  return matches ? Status()
+                 : Status::invalid_input("the mesh does not belong to the asset " + path + ": it " +
+                     cause + "; read the asset by vtkAssetReader");
+}
+
+/// Write a copy of the glTF file `asset_path` whose meshes have the skin.
+Status write_asset(ExecutionContext& context, const std::string& path,
+  const std::string& asset_path, const GltfSkin& skin, const GltfOptions& options)
+{
+  GltfAsset asset;
+  Status status = asset.read(asset_path);
+  const Status checked = status.ok() ? check_asset_points(asset_path, asset, skin.points) : status;
+  if (!checked.ok())
+  {
+    return checked;
+  }
+  const auto add = [&status](const Status& next)
+  {
+    add_warnings(next, status);
+    status.report.merge(next.report);
+    status.code = next.code;
+    status.message = next.message;
+  };
+  add(asset.set_skin(context, skin, options.influences));
+  if (status.ok())
+  {
+    add(context.canceled() ? Status::canceled() : asset.write(path, options.binary));
+  }
+  return status;
+}
 } // namespace
 
 vtkGLTFSkinWriter::vtkGLTFSkinWriter()
@@ -270,6 +313,7 @@ vtkGLTFSkinWriter::vtkGLTFSkinWriter()
 vtkGLTFSkinWriter::~vtkGLTFSkinWriter()
 {
   this->SetFileName(nullptr);
+  this->SetAssetFileName(nullptr);
   this->SetArrayName(nullptr);
   this->SetColorArrayName(nullptr);
   this->SetPoseFileName(nullptr);
@@ -316,12 +360,22 @@ Status vtkGLTFSkinWriter::Execute(
   {
     return status;
   }
+  const std::string asset_path = this->AssetFileName ? this->AssetFileName : "";
   GltfSkin skin;
   skin.points = surface.select_rows(to_points(mesh).view());
   skin.triangles = surface.triangles;
-  read_rows(mesh->GetPointData()->GetNormals(), surface, skin.normals);
-  read_rows(mesh->GetPointData()->GetTCoords(), surface, skin.texture);
-  status = read_colors(mesh->GetPointData(), this->ColorArrayName, surface, skin);
+  if (asset_path.empty())
+  {
+    read_rows(mesh->GetPointData()->GetNormals(), surface, skin.normals);
+    read_rows(mesh->GetPointData()->GetTCoords(), surface, skin.texture);
+    status = read_colors(mesh->GetPointData(), this->ColorArrayName, surface, skin);
+  }
+  else if (!handle_data || this->Animation == MORPH)
+  {
+    return Status::invalid_input(!handle_data
+        ? "a skin for an asset needs handles, but the input has none"
+        : "morph targets cannot be added to an asset; store the frames as joints");
+  }
   Handles handles;
   Pose pose;
   Status skin_status;
@@ -368,7 +422,9 @@ Status vtkGLTFSkinWriter::Execute(
   Status written = file.open(path, this->Overwrite);
   if (written.ok())
   {
-    written = write_gltf_skin(context, file.temporary(), skin, options);
+    written = asset_path.empty()
+      ? write_gltf_skin(context, file.temporary(), skin, options)
+      : write_asset(context, file.temporary(), asset_path, skin, options);
     const std::size_t at = written.message.find(file.temporary());
     if (at != std::string::npos)
     {
@@ -395,6 +451,8 @@ void vtkGLTFSkinWriter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+  os << indent << "AssetFileName: " << (this->AssetFileName ? this->AssetFileName : "(none)")
+     << "\n";
   os << indent << "Overwrite: " << (this->Overwrite ? "on" : "off") << "\n";
   os << indent << "ArrayName: " << (this->ArrayName ? this->ArrayName : "(none)") << "\n";
   os << indent << "ColorArrayName: " << (this->ColorArrayName ? this->ColorArrayName : "(none)")

@@ -37,17 +37,25 @@
  * every method (reduced and full as-rigid-as-possible, dual quaternions) and takes 12 bytes per
  * vertex and frame. The joints are then at rest.
  *
+ * **Assets**: with AssetFileName, a copy of this glTF file is written, and the meshes of its
+ * default scene get the skin. Input 0 must have the points of vtkAssetReader for this file, with
+ * weights. Everything but skins, joints and weights is kept: nodes, materials, textures, vertex
+ * attributes, cameras, animations, extras and unknown extensions. A node with a mesh does not move
+ * the skinned mesh; if an animation of the file moves only some of the meshes by their nodes, this
+ * motion is lost, with a warning. Frames are stored as an animation of the joints.
+ *
  * The file is written under a temporary name next to its target and renamed at the end; a failure
  * or cancel leaves no file. An existing file is an error unless Overwrite is on.
  *
- * Report: counts.{vertices, triangles, joints, frames, dropped_weights}, sets, rest_joint (yes or
- * no), dropped_share (the largest fraction of a row that MaximumInfluences dropped), pose_error
- * (like animation_error, for the pose of the handles), animation (joints, morph), animation_error,
- * file_bytes.
+ * Report: counts.{vertices, triangles, meshes, joints, frames, dropped_weights}, sets, rest_joint
+ * (yes or no), dropped_share (the largest fraction of a row that MaximumInfluences dropped),
+ * pose_error (like animation_error, for the pose of the handles), animation (joints, morph),
+ * animation_error, file_bytes, losses[] (one phrase for each lost motion of an asset).
  *
- * Errors (INVALID_INPUT, one sentence): no triangles or tets, weights that do not match the
- * handles, numbers that are not finite floats, frames with a different number of points or without
- * HandleTransforms, an invalid pose file, more than 4 GB, an output path that cannot be written.
+ * Errors (INVALID_INPUT, one sentence): no triangles or tets, points that are not those of the
+ * asset, weights that do not match the handles, numbers that are not finite floats, frames with a
+ * different number of points or without HandleTransforms, an invalid pose file, more than 4 GB, an
+ * output path that cannot be written.
  *
  * Call Write(), or Update().
  *
@@ -78,6 +86,13 @@ public:
   /// Path of the file: .glb (binary) or .gltf (text with embedded numbers). Default: none.
   vtkSetFilePathMacro(FileName);
   vtkGetFilePathMacro(FileName);
+  ///@}
+
+  ///@{
+  /// Path of the glTF file whose meshes get the skin, see the class documentation. Default: none,
+  /// which means that the file contains only the mesh.
+  vtkSetFilePathMacro(AssetFileName);
+  vtkGetFilePathMacro(AssetFileName);
   ///@}
 
   ///@{
@@ -160,6 +175,7 @@ private:
   void operator=(const vtkGLTFSkinWriter&) = delete;
 
   char* FileName = nullptr;
+  char* AssetFileName = nullptr;
   char* ArrayName = nullptr;
   char* ColorArrayName = nullptr;
   char* PoseFileName = nullptr;

@@ -304,6 +304,7 @@ Status GltfAsset::read(const std::string& path)
   {
     *this = GltfAsset();
   }
+  this->path_ = path;
   return status;
 }
 
@@ -406,7 +407,7 @@ Status GltfAsset::set_skin(
   }
   catch (const Json::exception& error) // a value of the file has a wrong type
   {
-    return Status::invalid_input(std::string("the file is not valid: ") + error.what());
+    return Status::invalid_input(this->path_ + " is not valid: " + error.what());
   }
 }
 

@@ -80,6 +80,7 @@ private:
   void attach_skin(
     const std::vector<GltfJoint>& joints, const GltfWeights& packed, const GltfJointNodes& nodes);
 
+  std::string path_; ///< the file, for messages
   GltfDocument document_;
   Points points_;
   Triangles triangles_;

@@ -1,0 +1,61 @@
+/**
+ * @class   vtkAssetReader
+ * @brief   reads the triangles of all meshes of a glTF 2.0 file, for a new rig of the whole file
+ *
+ * Weights for the points of this mesh can be written into a copy of the file by vtkGLTFSkinWriter
+ * (AssetFileName). The copy keeps materials, textures, cameras, animations and everything else.
+ *
+ * **Output 0**: the triangles of the default scene (vtkPolyData), in scene coordinates. The
+ * vertices of a mesh occur once for each node with the mesh. If a mesh has a skin, its points have
+ * the positions of the bind pose. Vertices that the file splits at seams of textures stay split;
+ * the weights filters give equal weights to points at the same position.
+ *
+ * Use vtkGLTFSkinReader instead to read the weights, the joints and the animation of a rig.
+ *
+ * A missing, truncated or invalid file gives INVALID_INPUT with one sentence that names it. It
+ * never causes a crash or a partial mesh.
+ *
+ * Report: counts.meshes (nodes with triangles), counts.vertices, counts.triangles,
+ * counts.skipped_primitives (points and lines).
+ *
+ * @sa vtkGLTFSkinWriter vtkGLTFSkinReader
+ */
+
+#ifndef vtkAssetReader_h
+#define vtkAssetReader_h
+
+#include "BindposeFiltersModule.h" // for export macro
+#include "vtkBindposeAlgorithm.h"
+
+class BINDPOSEFILTERS_EXPORT vtkAssetReader : public vtkBindposeAlgorithm
+{
+public:
+  static vtkAssetReader* New();
+  vtkTypeMacro(vtkAssetReader, vtkBindposeAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /// Path of the file: .glb or .gltf. Default: none.
+  vtkSetFilePathMacro(FileName);
+  vtkGetFilePathMacro(FileName);
+  ///@}
+
+  /// File name extensions that can be read, in lower case, without dots, separated by blanks.
+  static const char* GetFileExtensions() { return "glb gltf"; }
+
+protected:
+  vtkAssetReader();
+  ~vtkAssetReader() override;
+
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  bindpose::Status Execute(bindpose::ExecutionContext& context, vtkInformationVector** input,
+    vtkInformationVector* output) override;
+
+private:
+  vtkAssetReader(const vtkAssetReader&) = delete;
+  void operator=(const vtkAssetReader&) = delete;
+
+  char* FileName = nullptr;
+};
+
+#endif

@@ -270,7 +270,11 @@ class Verb:
             if "set" in entry:
                 require(entry["set"] in sets, f"{where}: verb '{self.name}'", f"unknown set '{entry['set']}'")
                 self.sets.append(sets[entry["set"]])
-                self.options += self.sets[-1].of_layer("cli")
+                without = entry.get("without", [])
+                strange = [name for name in without if name not in {option.name for option in self.sets[-1].options}]
+                require(not strange, f"{where}: verb '{self.name}'",
+                        f"set '{entry['set']}' has no option '{strange[0] if strange else ''}'")
+                self.options += [option for option in self.sets[-1].of_layer("cli") if option.name not in without]
             else:
                 own.append(verb_option(entry, f"{where}: verb '{self.name}'", self))
                 self.options.append(own[-1])

@@ -38,8 +38,8 @@ void run(Session& session)
   const std::pair<const char*, void (*)(Session&)> functions[] = { { "info", run_info },
     { "winding", run_winding }, { "tetrahedralize", run_tetrahedralize },
     { "outline", run_outline }, { "handles", run_handles }, { "weights", run_weights },
-    { "smooth", run_smooth }, { "deform", run_deform }, { "render", run_render },
-    { "view", run_view } };
+    { "smooth", run_smooth }, { "deform", run_deform }, { "rig", run_rig },
+    { "render", run_render }, { "view", run_view } };
   for (const auto& [name, function] : functions)
   {
     if (session.arguments().verb == name)

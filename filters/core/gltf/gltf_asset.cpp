@@ -212,6 +212,13 @@ struct GltfAsset::Reader
       throw GltfError("a vertex has a coordinate that is not finite");
     }
     this->asset_.triangles_ = to_matrix(this->triangles_);
+    this->count_joint_animations();
+    if (this->posed_meshes_ > 0)
+    {
+      this->status_.warnings.push_back(std::to_string(this->posed_meshes_) +
+        (this->posed_meshes_ == 1 ? " mesh is" : " meshes are") +
+        " not in the bind pose of the skin; the new skin begins with the bind pose");
+    }
     Report& report = this->status_.report;
     report.set("counts.meshes", this->meshes_);
     report.set("counts.vertices", this->asset_.points_.rows());
@@ -231,14 +238,12 @@ private:
     }
     if (node.skin >= 0)
     {
+      const tinygltf::Skin& skin = gltf_element(this->model_.skins, node.skin, "skin");
       bool posed = false;
-      this->asset_.mesh_to_scene_[id] = bind_transform(this->model_, this->accessors_,
-        this->asset_.node_to_scene_, gltf_element(this->model_.skins, node.skin, "skin"), posed);
-      if (posed)
-      {
-        this->status_.warnings.push_back("the mesh '" + sanitize_line(mesh.name) +
-          "' is not in the bind pose of its skin; the new skin begins with the bind pose");
-      }
+      this->asset_.mesh_to_scene_[id] =
+        bind_transform(this->model_, this->accessors_, this->asset_.node_to_scene_, skin, posed);
+      this->posed_meshes_ += posed ? 1 : 0;
+      this->old_joints_.insert(skin.joints.begin(), skin.joints.end());
     }
     this->meshes_ += 1;
     std::map<int, Index> first_of_accessor; // primitives with different materials share vertices
@@ -270,6 +275,17 @@ private:
     }
   }
 
+  void count_joint_animations()
+  {
+    for (const tinygltf::Animation& animation : this->model_.animations)
+    {
+      const auto moves_joint = [this](const tinygltf::AnimationChannel& channel)
+      { return this->old_joints_.count(channel.target_node) > 0; };
+      this->asset_.joint_animations_ +=
+        std::any_of(animation.channels.begin(), animation.channels.end(), moves_joint) ? 1 : 0;
+    }
+  }
+
   Index add_points(int accessor, const Eigen::Affine3d& mesh_to_scene)
   {
     const GltfNumbers rows = this->accessors_.read_finite(accessor, TINYGLTF_TYPE_VEC3, "POSITION");
@@ -288,6 +304,8 @@ private:
   std::vector<std::array<Index, 3>> triangles_;
   Index meshes_ = 0;
   Index skipped_ = 0;
+  Index posed_meshes_ = 0; ///< number of meshes that are not in the bind pose
+  std::set<int> old_joints_; ///< nodes of the joints of the meshes' skins
 };
 
 Status GltfAsset::read(const std::string& path)
@@ -336,11 +354,15 @@ GltfJointNodes GltfAsset::add_skeleton(const std::vector<GltfJoint>& joints,
     {
       losses.push_back("the animation of node '" +
         sanitize_line(this->document_.list("nodes")[id].value("name", std::to_string(id))) + "'");
+      status.warnings.push_back(
+        losses.back() + " no longer moves its mesh, because the skin moves the mesh");
     }
   }
-  for (const std::string& loss : losses)
+  if (this->joint_animations_ > 0)
   {
-    status.warnings.push_back(loss + " no longer moves its mesh, because the skin moves the mesh");
+    losses.push_back(std::to_string(this->joint_animations_) +
+      (this->joint_animations_ == 1 ? " animation" : " animations") + " of the old joints");
+    status.warnings.push_back(losses.back() + " no longer move the meshes");
   }
   if (!losses.empty())
   {

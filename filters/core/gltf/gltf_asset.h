@@ -90,6 +90,7 @@ private:
   std::vector<Eigen::Affine3d> mesh_to_scene_;
   int scene_ = 0; ///< id of the default scene
   std::vector<int> parents_; ///< per node: id of the parent node, or -1
+  Index joint_animations_ = 0; ///< number of animations that move joints of the meshes' skins
   std::vector<char> animated_; ///< per node: whether an animation moves the node itself
 };
 

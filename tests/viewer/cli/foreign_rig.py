@@ -58,7 +58,9 @@ def _box(lower, upper, cuts=3):
     return points, triangles
 
 
-class _Buffer:
+class Buffer:
+    """Collects the binary data of a glTF file."""
+
     def __init__(self):
         self.bytes, self.views, self.accessors = b"", [], []
 
@@ -77,6 +79,12 @@ class _Buffer:
         self.accessors.append(accessor)
         return len(self.accessors) - 1
 
+    def complete(self, file):
+        """Add the accessors, and the binary data as base64, to the JSON text of a file."""
+        data = "data:application/octet-stream;base64," + base64.b64encode(self.bytes).decode()
+        return {**file, "bufferViews": self.views, "accessors": self.accessors,
+                "buffers": [{"byteLength": len(self.bytes), "uri": data}]}
+
 
 def write_foreign_rig(path, animations=76, keys=5, placeholder=False):
     """Write the character as text (.gltf) with embedded binary data. If `placeholder` is true, all vertices belong to
@@ -84,7 +92,7 @@ def write_foreign_rig(path, animations=76, keys=5, placeholder=False):
     """
     names = [name for name, _, _ in JOINTS]
     places = {name: place for name, _, place in JOINTS}
-    buffer = _Buffer()
+    buffer = Buffer()
     nodes = []
     for name, parent, place in JOINTS:
         above = places.get(parent, (0, 0, 0))
@@ -128,9 +136,6 @@ def write_foreign_rig(path, animations=76, keys=5, placeholder=False):
         "animations": motions,
         "materials": [{"name": "skin", "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}, {"name": "cloth"}],
         "textures": [{"source": 0}], "images": [{"uri": "skin.png"}],
-        "cameras": [{"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}}],
-        "bufferViews": buffer.views, "accessors": buffer.accessors,
-        "buffers": [{"byteLength": len(buffer.bytes),
-                     "uri": "data:application/octet-stream;base64," + base64.b64encode(buffer.bytes).decode()}]}
+        "cameras": [{"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}}]}
     with open(path, "w", encoding="utf-8") as out:
-        json.dump(file, out)
+        json.dump(buffer.complete(file), out)

@@ -1,0 +1,134 @@
+"""bindpose rig: a glTF file gets joints and weights and keeps everything else."""
+
+import json
+
+import foreign_rig
+import numpy as np
+import pytest
+import shapes
+from gltf_file import GltfFile
+
+
+@pytest.fixture
+def character(folder):
+    """A character of 15 meshes with a picture, materials, a camera and animations of its joints."""
+    foreign_rig.write_foreign_rig(folder / "c.gltf", animations=3)
+    folder.picture = shapes.png(4, 4, lambda x, y: (50 * x, 50 * y, 0, 255))
+    folder.write("skin.png", folder.picture)
+    return folder
+
+
+def write_statue(folder):
+    """Write a bar without a skin. Its two ends have different materials, and the texture has a seam in the middle, where
+    vertices occur twice."""
+    vertices, faces = shapes.bar()
+    left = [face for face in faces if sum(vertices[v][0] for v in face) < 9]
+    right = [face for face in faces if face not in left]
+    buffer = foreign_rig.Buffer()
+    primitives = []
+    for k, part in enumerate((left, right)):
+        used = sorted({v for face in part for v in face})
+        primitives.append({
+            "attributes": {"POSITION": buffer.add([vertices[v] for v in used], "VEC3"),
+                           "TEXCOORD_0": buffer.add([[vertices[v][0] / 6, k] for v in used], "VEC2")},
+            "indices": buffer.add([used.index(v) for face in part for v in face], "SCALAR", "H"), "material": k})
+    file = {"asset": {"version": "2.0", "extras": {"author": "somebody"}}, "scene": 0,
+            "scenes": [{"nodes": [0]}],
+            "nodes": [{"name": "statue", "mesh": 0, "rotation": [0, 0, 0.6, 0.8], "extras": {"price": 0.1}}],
+            "meshes": [{"name": "bar", "primitives": primitives}],
+            "materials": [{"name": "gold", "pbrMetallicRoughness": {"metallicFactor": 0.9}}, {"name": "wood"}],
+            "extensionsUsed": ["ACME_unknown"], "extensions": {"ACME_unknown": {"list": [1, 2.5, None]}}}
+    folder.write("statue.gltf", json.dumps(buffer.complete(file)))
+
+
+def expect_kept(before, after, new_nodes):
+    """Expect that `after` has the text of `before`, with more nodes at the end of the list and one more root."""
+    old, new = before.without_skins(), after.without_skins()
+    assert len(new["nodes"]) == len(old["nodes"]) + new_nodes
+    del new["nodes"][len(old["nodes"]):]
+    assert new["scenes"][0]["nodes"].pop() == len(old["nodes"])  # the parent of the joints
+    assert new == old
+    count = len(before.json["accessors"])
+    for k in range(count):
+        np.testing.assert_array_equal(after.numbers(k), before.numbers(k))
+
+
+def test_a_statue_gets_a_skeleton(folder):
+    write_statue(folder)
+    run = folder.run("rig", "statue.gltf", "-o", "out.glb", "--report", "r.json").is_good()
+    report = json.loads((folder / "r.json").read_text())
+    joints = report["gltf"]["counts"]["joints"]
+    assert joints >= 1 and report["gltf"]["pose_error"] < 1e-6 and report["gltf"]["sets"] == 1
+    assert "losses" not in report["gltf"] and run.err.count("warning") == 0
+    before, after = GltfFile(folder / "statue.gltf"), GltfFile(folder / "out.glb")
+    expect_kept(before, after, joints + 1)
+    assert after.json["nodes"][0]["skin"] == 0
+
+
+def test_vertices_at_a_seam_get_equal_weights(folder):
+    write_statue(folder)
+    folder.run("rig", "statue.gltf", "--handles", "auto:4", "--influences", "2", "-o", "out.gltf").is_good()
+    after = GltfFile(folder / "out.gltf")
+    rows = {}
+    for primitive in (0, 1):
+        points = after.attribute(0, "POSITION", primitive)
+        joints, weights = after.attribute(0, "JOINTS_0", primitive), after.attribute(0, "WEIGHTS_0", primitive)
+        assert (np.count_nonzero(weights, axis=1) <= 2).all()
+        assert weights.sum(axis=1) == pytest.approx(np.ones(len(weights)), abs=1e-6)
+        for point, *row in zip(points, joints, weights):
+            rows.setdefault(tuple(point), []).append([list(part) for part in row])
+    shared = [both for both in rows.values() if len(both) == 2]
+    assert len(shared) > 0
+    assert all(first == second for first, second in shared)
+
+
+def test_a_character_keeps_everything_but_its_skin(character):
+    run = character.run("rig", "c.gltf", "-o", "out.glb", "--handles", "skeleton:10", "--report", "-").is_good()
+    assert run.report["gltf"]["losses"] == ["3 animations of the old joints"]
+    assert run.err.count("3 animations of the old joints no longer move the meshes") == 1
+    before, after = GltfFile(character / "c.gltf"), GltfFile(character / "out.glb")
+    image = after.json["images"][0]
+    assert after.view(image.pop("bufferView")) == character.picture and image.pop("mimeType") == "image/png"
+    image["uri"] = "skin.png"
+    expect_kept(before, after, run.report["gltf"]["counts"]["joints"] + 1)
+    for mesh in range(len(after.json["meshes"])):
+        assert after.weights(mesh).sum(axis=1) == pytest.approx(np.ones(len(after.attribute(mesh, "POSITION"))))
+    skins = {node["skin"] for node in after.json["nodes"] if "mesh" in node}
+    assert len({tuple(after.json["skins"][skin]["joints"]) for skin in skins}) == 1  # one skeleton
+
+
+def test_poses_become_an_animation(folder):
+    write_statue(folder)
+    folder.write("h.tgf", "1 0.5 0.5 0.5\n2 3 0.5 0.5\n#\n1 2 1 0 0\n")
+    folder.write("poses.json", json.dumps({"version": 2, "fps": 8, "frames": [
+        {"handles": {"b1": {"rotate": {"axis": [0, 0, 1], "degrees": 20 * k}}}} for k in range(3)]}))
+    report = folder.run("rig", "statue.gltf", "--handles", "h.tgf", "--pose", "poses.json", "-o", "out.glb",
+                        "--report", "-").is_good().report
+    assert report["gltf"]["counts"]["frames"] == 3 and report["gltf"]["animation_error"] < 1e-6
+    after = GltfFile(folder / "out.glb")
+    assert len(after.json["animations"]) == 1
+    info = folder.run("info", "out.glb").is_good().out
+    assert "3 frames, 8 per second" in info
+
+
+def test_the_weights_of_the_surface(folder):
+    write_statue(folder)
+    folder.run("rig", "statue.gltf", "--handles", "auto:3", "--domain", "surface", "-o", "out.glb").is_good()
+    assert GltfFile(folder / "out.glb").attribute(0, "WEIGHTS_0").shape[1] == 4
+
+
+def test_refusals(folder):
+    write_statue(folder)
+    folder.off("cube.off", shapes.cube())
+    folder.run("rig", "cube.off", "-o", "out.glb").is_refused("cube.off", "glb")
+    folder.run("rig", "statue.gltf", "-o", "out.vtp").is_refused("out.vtp", "glb")
+    folder.run("rig", "statue.gltf", "--handles", "bones", "-o", "out.glb").is_refused("--handles 'bones'")
+    folder.run("rig", "statue.gltf", "--influences", "-1", "-o", "out.glb").is_refused("--influences", code=1)
+    folder.run("rig", "statue.gltf", "--keep-raw", "-o", "out.glb").is_refused("--keep-raw", code=1)
+    folder.run("rig", "statue.gltf", "--pose", "none.json", "-o", "out.glb").is_refused("none.json")
+    folder.write("cut.gltf", (folder / "statue.gltf").read_bytes()[:200])
+    folder.run("rig", "cut.gltf", "-o", "out.glb").is_refused("cut.gltf")
+    folder.write("empty.gltf", '{"asset": {"version": "2.0"}}')
+    folder.run("rig", "empty.gltf", "-o", "out.glb").is_refused("empty.gltf", "no triangles")
+    folder.run("rig", "statue.gltf", "--handles", "auto:4", "-o", "out.glb").is_good()
+    folder.run("rig", "statue.gltf", "-o", "out.glb").is_refused("out.glb", "the file exists")

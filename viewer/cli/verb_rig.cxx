@@ -1,0 +1,67 @@
+// Implements bindpose rig ASSET -o OUT.glb. The points of all meshes of a glTF file get weights, and
+// a copy of the file is written with the new skin.
+#include "cli/session.h"
+#include "cli/verbs.h"
+#include "cli/weights_stage.h"
+
+#include "vtkGLTFSkinWriter.h"
+#include "vtkWeightsAlgorithm.h"
+
+#include "vtkDataSet.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+
+namespace bindpose::cli
+{
+
+namespace
+{
+/// Return the asset's points with weights, or null on failure.
+vtkSmartPointer<vtkDataSet> compute_weights(
+  Session& session, vtkPolyData* mesh, vtkPolyData* handles)
+{
+  const auto weights = make_weights(session, mesh);
+  if (!weights)
+  {
+    return nullptr;
+  }
+  weights->SetInputData(0, mesh);
+  weights->SetInputData(1, handles);
+  if (!session.run(weights, "weights", 0.0, 0.98, Merge::all))
+  {
+    return nullptr;
+  }
+  auto* weighted = vtkDataSet::SafeDownCast(weights->GetOutputDataObject(0));
+  return session.arguments().text("domain") == "surface"
+    ? transfer_to_points(session, mesh, weighted)
+    : vtkSmartPointer<vtkDataSet>(weighted);
+}
+} // namespace
+
+void run_rig(Session& session)
+{
+  const Arguments& arguments = session.arguments();
+  const std::string output = arguments.text("output");
+  if (!session.check_output(output, vtkGLTFSkinWriter::GetFileExtensions()))
+  {
+    return;
+  }
+  const std::string asset = arguments.text("ASSET");
+  const auto mesh = session.read_asset(asset);
+  const auto handles = mesh ? session.read_handles(arguments.text("handles"), mesh) : nullptr;
+  const auto weighted = handles ? compute_weights(session, mesh, handles) : nullptr;
+  if (!weighted)
+  {
+    return;
+  }
+  vtkNew<vtkGLTFSkinWriter> writer;
+  writer->SetInputData(0, weighted);
+  writer->SetHandlesData(handles);
+  writer->SetAssetFileName(asset.c_str());
+  writer->SetMaximumInfluences(arguments.integer("influences"));
+  writer->SetPoseFileName(arguments.text("pose").c_str());
+  writer->SetFileName(output.c_str());
+  session.write_rig(writer);
+}
+
+} // namespace bindpose::cli

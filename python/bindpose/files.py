@@ -7,6 +7,7 @@ import os
 from vtkmodules.vtkCommonDataModel import vtkDataSet, vtkPolyData
 
 from .BindposeFilters import (
+    vtkAssetReader,
     vtkGLTFSkinWriter,
     vtkHandleFileReader,
     vtkMeshFileReader,
@@ -42,6 +43,42 @@ def read(path: Path) -> vtkDataSet:
     >>> surface = bindpose.read("elephant.off")  # doctest: +SKIP
     """
     reader = vtkMeshFileReader()
+    reader.SetFileName(os.fspath(path))
+    run(reader)
+    return reader.GetOutput()
+
+
+def read_asset(path: Path) -> vtkPolyData:
+    """Read the triangles of all meshes of a glTF file, for a new rig of the whole file.
+
+    Parameters
+    ----------
+    path : str or path-like
+        .glb or .gltf.
+
+    Returns
+    -------
+    vtkPolyData
+        The meshes of the default scene, in scene coordinates. `Rig.save` and `write_rig` with the parameter ``asset``
+        write a copy of the file with the weights of these points; the copy keeps materials, textures, cameras,
+        animations and everything else.
+
+    Raises
+    ------
+    InvalidInput
+        Missing, truncated or invalid file, or a file without triangles; the message names it.
+
+    Examples
+    --------
+    >>> tetrahedron = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    ...                [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> bindpose.write(tetrahedron, "asset.glb")
+    >>> mesh = bindpose.read_asset("asset.glb")
+    >>> rig = bindpose.bind(mesh, bindpose.handles(points=[[0, 0, 0], [1, 0, 0]]), domain="surface")
+    >>> rig.save("rigged.glb", asset="asset.glb", maximum_influences=4)["counts"]["joints"]
+    2
+    """
+    reader = vtkAssetReader()
     reader.SetFileName(os.fspath(path))
     run(reader)
     return reader.GetOutput()

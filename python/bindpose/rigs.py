@@ -227,12 +227,12 @@ class Rig:
 
     def save(self, path: Path, *, frames: Sequence[Mapping[str, Any] | vtkDataSet] = (), fps: float | None = None,
              animation: Literal["joints", "morph"] = "joints", maximum_influences: int = 0,
-             overwrite: bool = False) -> dict[str, Any]:
+             asset: Path | None = None, overwrite: bool = False) -> dict[str, Any]:
         """Write the rig as a skinned glTF 2.0 file.
 
         Parameters
         ----------
-        path, animation, maximum_influences, overwrite
+        path, animation, maximum_influences, asset, overwrite
             See `write_rig`.
         frames : sequence of dict or of vtkDataSet
             The frames of an animation: poses as in `pose`, or results of `deform`. Without frames, the animation of the
@@ -259,7 +259,7 @@ class Rig:
             frames = deform(self._mesh, self._handles, self.animation)
             fps = fps or self.animation.get("fps")
         return write_rig(self._mesh, self._handles, path, frames=frames, fps=fps or 24.0, animation=animation,
-                         maximum_influences=maximum_influences, overwrite=overwrite)
+                         maximum_influences=maximum_influences, asset=asset, overwrite=overwrite)
 
     def _method(self, options):
         """Return the prepared method with these options. Its filter binds again only if a bind option has changed."""
@@ -574,7 +574,7 @@ def read_rig(path: Path) -> Rig:
 
 def write_rig(mesh: Mesh, handles: Handles, path: Path, *, frames: Sequence[vtkDataSet] = (), fps: float = 24.0,
               animation: Literal["joints", "morph"] = "joints", maximum_influences: int = 0,
-              overwrite: bool = False) -> dict[str, Any]:
+              asset: Path | None = None, overwrite: bool = False) -> dict[str, Any]:
     """Write a mesh with weights and its handles as a skinned glTF 2.0 file, for Blender and game engines.
 
     Parameters
@@ -593,6 +593,9 @@ def write_rig(mesh: Mesh, handles: Handles, path: Path, *, frames: Sequence[vtkD
         Frames are stored as transforms of the joints (linear blends), or as morph targets (all methods).
     maximum_influences : int
         Maximum number of weights per vertex that are written; the largest weights are kept. 0: all.
+    asset : str or path-like, optional
+        glTF file from which `mesh` was read by `read_asset`: a copy of it gets the skin and keeps everything else.
+        Default: the file contains only the mesh.
     overwrite : bool
         Replace an existing file.
 
@@ -601,12 +604,12 @@ def write_rig(mesh: Mesh, handles: Handles, path: Path, *, frames: Sequence[vtkD
     dict
         The writer's report: ``sets`` (number of sets of four weights), ``dropped_share``, ``pose_error`` and
         ``animation_error`` (both: largest distance of a vertex in the file from its correct position, as a fraction of
-        the diagonal), ``file_bytes``, …
+        the diagonal), ``file_bytes``, ``losses`` (motions of the asset that the new skin replaces), …
 
     Raises
     ------
     InvalidInput
-        Weights or frames that do not match, an existing file, an output path that cannot be written.
+        Weights, frames or an asset that do not match, an existing file, an output path that cannot be written.
 
     Examples
     --------
@@ -629,6 +632,8 @@ def write_rig(mesh: Mesh, handles: Handles, path: Path, *, frames: Sequence[vtkD
     writer.SetFramesPerSecond(float(fps))
     writer.SetAnimation(int(animation == "morph"))
     writer.SetMaximumInfluences(int(maximum_influences))
+    if asset is not None:
+        writer.SetAssetFileName(os.fspath(asset))
     writer.SetFileName(os.fspath(path))
     writer.SetOverwrite(bool(overwrite))
     return run(writer)

@@ -93,6 +93,7 @@ class Data:
 DATA = {
     "BindposeMeshReader": lambda data: {"FileName": str(FIGURE / "figure.off")},
     "BindposeHandleReader": lambda data: {"FileName": str(FIGURE / "figure.tgf")},
+    "BindposeAssetReader": lambda data: {"FileName": str(data.rig)},
     "BindposeGLTFSkinReader": lambda data: {"FileName": str(data.rig)},
     "PlacedHandles": lambda data: {"HandlesText": "1 0 0 0 hip\n2 0 0.4 0\n3 0 0.8 0\n#\n2 3 1 0 0\n"},
     "WindingNumberField": lambda data: {"Input": data.figure, "may_be_empty": {1}},

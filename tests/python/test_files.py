@@ -52,6 +52,34 @@ def test_rigs(tmp_path):
         bindpose.write_rig(mesh, tmp_path / "h.tgf", tmp_path / "rig.glb", animation="shapes")
 
 
+def test_assets(tmp_path):
+    foreign_rig.write_foreign_rig(tmp_path / "c.gltf", animations=1)
+    (tmp_path / "skin.png").write_bytes(b"picture")
+    mesh = bindpose.read_asset(tmp_path / "c.gltf")
+    assert bindpose.report(mesh)["counts"]["meshes"] == len(foreign_rig.BOXES)
+    ends = bindpose.handles(points=[[0, 0, 0], [0, 2, 0]])
+    rig = bindpose.bind(mesh, ends, domain="surface")
+    with pytest.warns(bindpose.BindposeWarning, match="1 animation of the old joints"):
+        report = rig.save(tmp_path / "out.glb", asset=tmp_path / "c.gltf", maximum_influences=4,
+                          frames=[{"p2": {"translate": [0, k, 0]}} for k in range(2)], fps=4)
+    assert report["losses"] == ["1 animation of the old joints"] and report["counts"]["frames"] == 2
+    assert report["animation_error"] < 1e-6
+    # The file has the points of the asset, and its rest pose.
+    again = bindpose.read_asset(tmp_path / "out.glb")
+    assert points_of(again) == pytest.approx(points_of(mesh), abs=1e-5)
+    with pytest.raises(bindpose.InvalidInput, match="does not belong to the asset .*c.gltf: it has 8 points"):
+        bindpose.bind(shapes.cube(), bindpose.handles(points=[[1, 1, 1], [0, 0, 0]])).save(
+            tmp_path / "cube.glb", asset=tmp_path / "c.gltf")
+    points_of(mesh)[:, 1] += 0.5
+    with pytest.raises(bindpose.InvalidInput, match="has other points"):
+        bindpose.bind(mesh, ends, domain="surface").save(tmp_path / "moved.glb", asset=tmp_path / "c.gltf")
+    with pytest.raises(bindpose.InvalidInput, match="morph targets cannot be added"):
+        rig.save(tmp_path / "morph.glb", asset=tmp_path / "c.gltf", animation="morph")
+    for missing in ("none.glb", "none.obj"):
+        with pytest.raises(bindpose.InvalidInput, match=missing):
+            bindpose.read_asset(tmp_path / missing)
+
+
 def test_what_a_character_loses_is_a_warning(tmp_path):
     path = tmp_path / "c.gltf"
     foreign_rig.write_foreign_rig(path, animations=3)

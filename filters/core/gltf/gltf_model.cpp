@@ -400,6 +400,24 @@ std::vector<Index> read_corners(
 }
 } // namespace
 
+GltfNumbers read_gltf_attribute(const GltfAccessors& accessors,
+  const tinygltf::Primitive& primitive, const char* name, int type, Index vertices, bool ids)
+{
+  const auto entry = primitive.attributes.find(name);
+  if (entry == primitive.attributes.end())
+  {
+    return {};
+  }
+  GltfNumbers numbers = ids ? accessors.read_ids(entry->second, type, name)
+                            : accessors.read_finite(entry->second, type, name);
+  if (vertices >= 0 && numbers.rows() != vertices)
+  {
+    throw GltfError(std::string(name) + " has " + std::to_string(numbers.rows()) +
+      " elements for " + std::to_string(vertices) + " vertices");
+  }
+  return numbers;
+}
+
 std::vector<Eigen::Affine3d> read_inverse_binds(
   const GltfAccessors& accessors, const tinygltf::Skin& skin)
 {

@@ -108,6 +108,14 @@ private:
   std::size_t bytes_ = 0;
 };
 
+/// Read an attribute with one row per vertex. Return a matrix without rows if it is missing. Throw
+/// GltfError for another number of rows.
+/// @param vertices expected number of rows; -1: any
+/// @param ids whether the values are unsigned integers
+GltfNumbers read_gltf_attribute(const GltfAccessors& accessors,
+  const tinygltf::Primitive& primitive, const char* name, int type, Index vertices,
+  bool ids = false);
+
 /// Return the inverse bind matrices of a skin, one per joint. They are the identity if the skin has
 /// none. Throw GltfError if there are fewer matrices than joints.
 std::vector<Eigen::Affine3d> read_inverse_binds(

@@ -1,9 +1,10 @@
-// Reader of skinned meshes in glTF files (see gltf_skin.h): joints, meshes, weights, and the first
+// Reader of skinned meshes in glTF files (see gltf_skin.h): meshes, weights, and the first
 // animation of a joint.
 #include "gltf/gltf_skin.h"
 
 #include "base/memory.h"
 #include "gltf/gltf_model.h"
+#include "gltf/gltf_skin_reader.h"
 #include "io/text_scanner.h"
 
 #include <algorithm>
@@ -20,122 +21,6 @@ constexpr Index maximum_frames = 100000;
 constexpr double frames_per_second = 24.0; // frame rate if the keys are not evenly spaced
 
 using Transforms = std::vector<Eigen::Affine3d>;
-
-// ---- Joints ------------------------------------------------------------------------------------
-
-bool read_vector(const tinygltf::Value& value, Vec3& to)
-{
-  for (int k = 0; k < 3; ++k)
-  {
-    if (!value.IsArray() || value.ArrayLen() != 3 || !value.Get(k).IsNumber())
-    {
-      return false;
-    }
-    to[k] = value.Get(k).GetNumberAsDouble();
-  }
-  return to.allFinite();
-}
-
-/// Read the extras that Bindpose writes for a handle. Return nothing if they are missing or
-/// invalid.
-std::optional<GltfHandleExtras> read_handle_extras(
-  const tinygltf::Value& extras, std::size_t joints)
-{
-  if (!extras.IsObject() || !extras.Has("bindpose") || !extras.Get("bindpose").IsObject())
-  {
-    return {};
-  }
-  const tinygltf::Value& properties = extras.Get("bindpose");
-  GltfHandleExtras handle_extras;
-  if (!properties.Has("kind") || !properties.Get("kind").IsString() ||
-    !read_vector(properties.Get("head"), handle_extras.head) ||
-    !read_vector(properties.Get("tail"), handle_extras.tail))
-  {
-    return {};
-  }
-  handle_extras.kind = properties.Get("kind").Get<std::string>();
-  if (properties.Has("region") && properties.Get("region").IsNumber())
-  {
-    const double region = properties.Get("region").GetNumberAsDouble();
-    handle_extras.region = region > 0.0 && region < 1e15 ? static_cast<Index>(region) : 0;
-  }
-  const tinygltf::Value& cage = properties.Get("cage");
-  for (std::size_t e = 0; cage.IsArray() && e < cage.ArrayLen(); ++e)
-  {
-    const tinygltf::Value& corners = cage.Get(static_cast<int>(e));
-    std::array<Index, 3> element{ -1, -1, -1 };
-    for (int k = 0; k < 3; ++k)
-    {
-      const bool has_corners =
-        corners.IsArray() && corners.ArrayLen() == 3 && corners.Get(k).IsInt();
-      element[k] = has_corners ? corners.Get(k).GetNumberAsInt() : -2;
-      if (element[k] < (k < 2 ? 0 : -1) || element[k] >= static_cast<Index>(joints))
-      {
-        return {};
-      }
-    }
-    handle_extras.cage.push_back(element);
-  }
-  return handle_extras;
-}
-
-struct SkinNodes
-{
-  std::vector<int> nodes; ///< node of each joint
-  std::vector<int> joint_of_node;
-};
-
-SkinNodes read_joints(const tinygltf::Model& model, const GltfAccessors& accessors,
-  const GltfNodes& nodes, const tinygltf::Skin& from, GltfSkin& skin)
-{
-  SkinNodes result;
-  result.joint_of_node.assign(model.nodes.size(), -1);
-  result.nodes = from.joints;
-  if (from.joints.empty())
-  {
-    throw GltfError("the skin has no joints");
-  }
-  for (std::size_t j = 0; j < from.joints.size(); ++j)
-  {
-    gltf_element(model.nodes, from.joints[j], "node");
-    int& joint = result.joint_of_node[from.joints[j]];
-    if (joint >= 0)
-    {
-      throw GltfError("the skin contains a joint twice");
-    }
-    joint = static_cast<int>(j);
-  }
-  const Transforms inverse_binds = read_inverse_binds(accessors, from);
-  const Transforms global = nodes.scene_transforms();
-  std::set<std::string> names;
-  for (std::size_t j = 0; j < from.joints.size(); ++j)
-  {
-    const int id = from.joints[j];
-    GltfJoint joint;
-    joint.posed = global[id];
-    joint.rest = inverse_binds[j].inverse();
-    if (!joint.rest.matrix().allFinite() || !joint.posed.matrix().allFinite())
-    {
-      throw GltfError(
-        "joint " + std::to_string(j) + " has a matrix that is not finite or not invertible");
-    }
-    for (int ancestor = nodes.parents[id]; ancestor >= 0 && joint.parent < 0;
-         ancestor = nodes.parents[ancestor])
-    {
-      joint.parent = result.joint_of_node[ancestor];
-    }
-    joint.handle_extras = read_handle_extras(model.nodes[id].extras, from.joints.size());
-    const std::string name = sanitize_line(model.nodes[id].name);
-    joint.name = name.empty() ? "joint " + std::to_string(j) : name;
-    for (int copy = 2; !names.insert(joint.name).second; ++copy)
-    {
-      joint.name =
-        (name.empty() ? "joint " + std::to_string(j) : name) + "_" + std::to_string(copy);
-    }
-    skin.joints.push_back(joint);
-  }
-  return result;
-}
 
 // ---- Meshes ------------------------------------------------------------------------------------
 
@@ -158,28 +43,8 @@ struct Parts
   /// Id of the first vertex that was read from each combination of vertex accessors. Primitives
   /// with the same accessors but different materials share these vertices.
   std::map<std::map<std::string, int>, Index> first_vertex_by_accessors;
-  /// For each vertex, pairs of joint and weight.
-  std::vector<std::vector<std::pair<Index, double>>> influences;
+  GltfInfluences influences;
 };
-
-/// Read an attribute with one row per vertex. Return a matrix without rows if it is missing.
-GltfNumbers read_attribute(const GltfAccessors& accessors, const tinygltf::Primitive& primitive,
-  const char* name, int type, Index vertices, bool ids = false)
-{
-  const auto entry = primitive.attributes.find(name);
-  if (entry == primitive.attributes.end())
-  {
-    return {};
-  }
-  GltfNumbers numbers = ids ? accessors.read_ids(entry->second, type, name)
-                            : accessors.read_finite(entry->second, type, name);
-  if (vertices >= 0 && numbers.rows() != vertices)
-  {
-    throw GltfError(std::string(name) + " has " + std::to_string(numbers.rows()) +
-      " elements for " + std::to_string(vertices) + " vertices");
-  }
-  return numbers;
-}
 
 GltfNumbers read_colors(const tinygltf::Model& model, const GltfAccessors& accessors,
   const tinygltf::Primitive& primitive, Index vertices)
@@ -187,7 +52,7 @@ GltfNumbers read_colors(const tinygltf::Model& model, const GltfAccessors& acces
   const auto entry = primitive.attributes.find("COLOR_0");
   const bool three = entry != primitive.attributes.end() &&
     gltf_element(model.accessors, entry->second, "accessor").type == TINYGLTF_TYPE_VEC3;
-  GltfNumbers colors = read_attribute(
+  GltfNumbers colors = read_gltf_attribute(
     accessors, primitive, "COLOR_0", three ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_VEC4, vertices);
   if (three)
   {
@@ -195,52 +60,6 @@ GltfNumbers read_colors(const tinygltf::Model& model, const GltfAccessors& acces
     colors.col(3).setOnes();
   }
   return colors;
-}
-
-void read_influences(const GltfAccessors& accessors, const tinygltf::Primitive& primitive,
-  Index vertices, std::size_t joints, Parts& parts)
-{
-  const auto first = parts.influences.size();
-  parts.influences.resize(first + static_cast<std::size_t>(vertices));
-  for (Index set = 0;; ++set)
-  {
-    const std::string joint_name = "JOINTS_" + std::to_string(set);
-    const std::string weight_name = "WEIGHTS_" + std::to_string(set);
-    const GltfNumbers ids =
-      read_attribute(accessors, primitive, joint_name.c_str(), TINYGLTF_TYPE_VEC4, vertices, true);
-    const GltfNumbers weights =
-      read_attribute(accessors, primitive, weight_name.c_str(), TINYGLTF_TYPE_VEC4, vertices);
-    if (ids.rows() != weights.rows())
-    {
-      throw GltfError("JOINTS and WEIGHTS of set " + std::to_string(set) +
-        " must be either both present or both missing");
-    }
-    if (ids.rows() == 0)
-    {
-      return;
-    }
-    parts.sets = std::max(parts.sets, set + 1);
-    for (Index v = 0; v < vertices; ++v)
-    {
-      for (int k = 0; k < 4; ++k)
-      {
-        const double weight = weights(v, k);
-        if (weight == 0.0)
-        {
-          continue; // skip unused entries, whose joint id may be invalid
-        }
-        if (weight < 0.0 || ids(v, k) >= static_cast<double>(joints))
-        {
-          throw GltfError("vertex " + std::to_string(v) +
-            (weight < 0.0
-                ? std::string(" has a negative weight")
-                : " has a weight of joint " + std::to_string(static_cast<Index>(ids(v, k))) +
-                  ", but there are " + std::to_string(joints) + " joints"));
-        }
-        parts.influences[first + v].emplace_back(static_cast<Index>(ids(v, k)), weight);
-      }
-    }
-  }
 }
 
 void read_primitive(const tinygltf::Model& model, const GltfAccessors& accessors,
@@ -255,7 +74,8 @@ void read_primitive(const tinygltf::Model& model, const GltfAccessors& accessors
   parts.morph_targets = std::max(parts.morph_targets, static_cast<Index>(primitive.targets.size()));
   parts.more_attributes = parts.more_attributes || primitive.attributes.count("TEXCOORD_1") > 0 ||
     primitive.attributes.count("COLOR_1") > 0;
-  GltfNumbers points = read_attribute(accessors, primitive, "POSITION", TINYGLTF_TYPE_VEC3, -1);
+  GltfNumbers points =
+    read_gltf_attribute(accessors, primitive, "POSITION", TINYGLTF_TYPE_VEC3, -1);
   if (points.rows() == 0)
   {
     throw GltfError("a mesh has no attribute POSITION");
@@ -271,7 +91,7 @@ void read_primitive(const tinygltf::Model& model, const GltfAccessors& accessors
       points.row(v) = (mesh_to_scene * Vec3(points.row(v).transpose())).transpose();
     }
     GltfNumbers normals =
-      read_attribute(accessors, primitive, "NORMAL", TINYGLTF_TYPE_VEC3, vertices);
+      read_gltf_attribute(accessors, primitive, "NORMAL", TINYGLTF_TYPE_VEC3, vertices);
     const Eigen::Matrix3d normal_matrix = mesh_to_scene.linear().inverse().transpose();
     for (Index v = 0; v < normals.rows() && normal_matrix.allFinite(); ++v)
     {
@@ -280,11 +100,13 @@ void read_primitive(const tinygltf::Model& model, const GltfAccessors& accessors
     parts.points.push_back(points);
     parts.normals.push_back(normals);
     parts.textures.push_back(
-      read_attribute(accessors, primitive, "TEXCOORD_0", TINYGLTF_TYPE_VEC2, vertices));
+      read_gltf_attribute(accessors, primitive, "TEXCOORD_0", TINYGLTF_TYPE_VEC2, vertices));
     parts.colors.push_back(read_colors(model, accessors, primitive, vertices));
     if (joints > 0)
     {
-      read_influences(accessors, primitive, vertices, joints, parts);
+      const Index sets =
+        read_gltf_weights(accessors, primitive, vertices, joints, parts.influences);
+      parts.sets = std::max(parts.sets, sets);
     }
     parts.vertices += vertices;
   }
@@ -328,7 +150,7 @@ void join(const std::vector<GltfNumbers>& parts, Index rows, double unit, Matrix
 
 /// Set the weights, with rows that sum to one. Then remove the joint "rest", which
 /// write_gltf_skin() adds.
-void set_weights(Parts& parts, SkinNodes& joint_nodes, GltfSkin& skin)
+void set_weights(Parts& parts, std::vector<int>& joint_nodes, GltfSkin& skin)
 {
   const auto joints = static_cast<Index>(skin.joints.size());
   const std::size_t needed =
@@ -357,7 +179,7 @@ void set_weights(Parts& parts, SkinNodes& joint_nodes, GltfSkin& skin)
   if (joints > 1 && handle_extras && handle_extras->kind == "rest")
   {
     skin.joints.pop_back();
-    joint_nodes.nodes.pop_back();
+    joint_nodes.pop_back();
     skin.weights.conservativeResize(Eigen::NoChange, joints - 1);
     // Another program may have added children to the joint "rest"; they become roots.
     for (GltfJoint& joint : skin.joints)
@@ -513,10 +335,11 @@ std::vector<double> frame_times(const std::vector<Track>& tracks, double& rate)
 
 /// Read the first animation that moves a joint. Return its name, or nothing if there is none.
 std::optional<std::string> read_animation(const tinygltf::Model& model,
-  const GltfAccessors& accessors, GltfNodes nodes, const SkinNodes& skin_nodes, GltfSkin& skin)
+  const GltfAccessors& accessors, GltfNodes nodes, const std::vector<int>& joint_nodes,
+  GltfSkin& skin)
 {
   std::vector<char> moves_a_joint(model.nodes.size(), 0);
-  for (int id : skin_nodes.nodes)
+  for (int id : joint_nodes)
   {
     for (; id >= 0 && !moves_a_joint[id]; id = nodes.parents[id])
     {
@@ -574,7 +397,7 @@ std::optional<std::string> read_animation(const tinygltf::Model& model,
     }
     const Transforms global = nodes.scene_transforms();
     GltfFrame frame;
-    for (const int id : skin_nodes.nodes)
+    for (const int id : joint_nodes)
     {
       frame.posed.push_back(global[id]);
       if (!global[id].matrix().allFinite())
@@ -681,11 +504,20 @@ void read_model(const std::string& path, const tinygltf::Model& model, std::size
   const GltfAccessors accessors(model, file_size);
   const GltfNodes nodes = read_gltf_nodes(model);
   const int skin_id = first_skin(model);
-  SkinNodes skin_nodes;
+  std::vector<int> joint_nodes;
   if (skin_id >= 0)
   {
-    skin_nodes =
-      read_joints(model, accessors, nodes, gltf_element(model.skins, skin_id, "skin"), skin);
+    const tinygltf::Skin& from = gltf_element(model.skins, skin_id, "skin");
+    if (from.joints.empty())
+    {
+      throw GltfError("the skin has no joints");
+    }
+    Transforms rests = read_inverse_binds(accessors, from);
+    std::transform(rests.begin(), rests.end(), rests.begin(),
+      [](const Eigen::Affine3d& inverse_bind) { return inverse_bind.inverse(); });
+    GltfSkinJoints joints = read_gltf_joints(model, nodes, from.joints, rests);
+    skin.joints = std::move(joints.joints);
+    joint_nodes = std::move(joints.nodes);
   }
   const Transforms global = nodes.scene_transforms();
   Parts parts;
@@ -746,8 +578,8 @@ void read_model(const std::string& path, const tinygltf::Model& model, std::size
   std::optional<std::string> animation;
   if (skin_id >= 0)
   {
-    set_weights(parts, skin_nodes, skin);
-    animation = read_animation(model, accessors, nodes, skin_nodes, skin);
+    set_weights(parts, joint_nodes, skin);
+    animation = read_animation(model, accessors, nodes, joint_nodes, skin);
   }
   const std::vector<std::string> unsupported =
     find_unsupported(model, parts, skin, animation, omitted_meshes);

@@ -15,6 +15,7 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace bindpose
 {
@@ -82,40 +83,33 @@ bool kind_of(const std::string& word, HandleKind& kind)
 class HandleMaker
 {
 public:
-  HandleMaker(const GltfSkin& skin) : skin_(skin)
+  HandleMaker(
+    const std::vector<GltfJoint>& joints, const Eigen::RowVectorXd& largest_weights, double extent)
+    : joints_(joints), largest_weights_(largest_weights), extent_(extent)
   {
-    Box box = bounding_box(skin.points);
-    for (const GltfJoint& joint : skin.joints)
+    this->children_.resize(joints.size());
+    for (std::size_t j = 0; j < joints.size(); ++j)
     {
-      box.add(joint.rest.translation());
-    }
-    this->children_.resize(skin.joints.size());
-    for (std::size_t j = 0; j < skin.joints.size(); ++j)
-    {
-      if (skin.joints[j].parent >= 0)
+      if (joints[j].parent >= 0)
       {
-        this->children_[skin.joints[j].parent].push_back(static_cast<Index>(j));
+        this->children_[joints[j].parent].push_back(static_cast<Index>(j));
       }
     }
-    this->extent_ = box.diagonal() > 0.0 ? box.diagonal() : 1.0;
-    this->largest_weights_ = skin.weights.colwise().maxCoeff();
   }
-
-  double extent() const { return this->extent_; }
 
   /// Return one handle per joint, in the order of the joints.
   Handles make()
   {
     Handles handles;
-    for (std::size_t j = 0; j < this->skin_.joints.size(); ++j)
+    for (std::size_t j = 0; j < this->joints_.size(); ++j)
     {
       Handle handle = this->handle_of(j);
-      handle.name = this->skin_.joints[j].name;
-      handle.parent = this->skin_.joints[j].parent;
+      handle.name = this->joints_[j].name;
+      handle.parent = this->joints_[j].parent;
       handle.ownership = this->has_no_influence(j) ? Ownership::none : Ownership::optional;
       for (int k = 1; this->is_duplicate(handles, handle); ++k)
       {
-        const Vec3 bone_direction = this->skin_.joints[j].rest.linear().col(1).stableNormalized();
+        const Vec3 bone_direction = this->joints_[j].rest.linear().col(1).stableNormalized();
         handle.kind = HandleKind::bone;
         handle.tail = handle.head +
           0.01 * k * this->extent_ *
@@ -137,7 +131,7 @@ private:
 
   Handle handle_of(std::size_t j) const
   {
-    const GltfJoint& joint = this->skin_.joints[j];
+    const GltfJoint& joint = this->joints_[j];
     Handle handle;
     handle.head = handle.tail = joint.rest.translation();
     if (joint.handle_extras && kind_of(joint.handle_extras->kind, handle.kind))
@@ -160,8 +154,8 @@ private:
     Vec3 middle = Vec3::Zero();
     for (const Index child : this->children_[j])
     {
-      middle += this->skin_.joints[child].rest.translation() /
-        static_cast<double>(this->children_[j].size());
+      middle +=
+        this->joints_[child].rest.translation() / static_cast<double>(this->children_[j].size());
     }
     if (!this->children_[j].empty() && (middle - handle.head).norm() > 1e-6 * this->extent_)
     {
@@ -186,10 +180,10 @@ private:
         });
   }
 
-  const GltfSkin& skin_;
+  const std::vector<GltfJoint>& joints_;
+  const Eigen::RowVectorXd& largest_weights_; ///< largest weight of each joint
+  double extent_;
   std::vector<std::vector<Index>> children_;
-  double extent_ = 1.0;
-  Eigen::RowVectorXd largest_weights_; ///< largest weight of each joint
 };
 
 /// Sort handles so that bones are last, as in handle datasets. order[i] is the joint of handle i.
@@ -237,17 +231,6 @@ Affine transform_of(const Eigen::Affine3d& posed, const Eigen::Affine3d& rest, d
   return is_at_rest ? identity_affine() : Affine(map.matrix().topRows<3>());
 }
 
-Pose to_pose(const std::vector<Eigen::Affine3d>& posed, const std::vector<Eigen::Affine3d>& rest,
-  double extent)
-{
-  Pose pose(rest.size());
-  for (std::size_t h = 0; h < rest.size(); ++h)
-  {
-    pose[h].transform = transform_of(posed[h], rest[h], extent);
-  }
-  return pose;
-}
-
 void add_attributes(const GltfSkin& skin, vtkPolyData* mesh)
 {
   if (skin.normals.rows() > 0)
@@ -282,6 +265,57 @@ void add_attributes(const GltfSkin& skin, vtkPolyData* mesh)
 }
 } // namespace
 
+Status JointHandles::make(const Points& points, const std::vector<GltfJoint>& joints,
+  const Eigen::RowVectorXd& largest_weights)
+{
+  Box box = bounding_box(points);
+  for (const GltfJoint& joint : joints)
+  {
+    box.add(joint.rest.translation());
+  }
+  this->extent_ = box.diagonal() > 0.0 ? box.diagonal() : 1.0;
+  this->handles_ = HandleMaker(joints, largest_weights, this->extent_).make();
+  this->order_.clear();
+  sort_handles(this->handles_, this->order_);
+  this->rest_.clear();
+  this->posed_.clear();
+  for (std::size_t h = 0; h < this->handles_.size(); ++h)
+  {
+    // If the handle's frame equals the joint's frame up to float round-off, use the handle's frame.
+    // It is more accurate if the handle was read from the joint's extras, which store all digits.
+    const GltfJoint& joint = joints[this->order_[h]];
+    const Eigen::Affine3d frame = joint_frame(this->handles_[h]);
+    const double size = std::max(this->extent_ + joint.rest.translation().norm(), 1.0);
+    const bool is_joint_frame =
+      (frame.matrix() - joint.rest.matrix()).cwiseAbs().maxCoeff() <= float_error * size;
+    this->rest_.push_back(is_joint_frame ? frame : joint.rest);
+  }
+  for (const GltfJoint& joint : joints)
+  {
+    this->posed_.push_back(joint.posed);
+  }
+  return check_handles(this->handles_);
+}
+
+Pose JointHandles::pose(const std::vector<Eigen::Affine3d>& posed) const
+{
+  Pose pose(this->rest_.size());
+  for (std::size_t h = 0; h < pose.size(); ++h)
+  {
+    pose[h].transform = transform_of(posed[this->order_[h]], this->rest_[h], this->extent_);
+  }
+  return pose;
+}
+
+vtkSmartPointer<vtkPolyData> JointHandles::posed_handles() const
+{
+  auto data = to_polydata(this->handles_);
+  std::vector<Index> cells(this->handles_.size());
+  std::iota(cells.begin(), cells.end(), Index(0));
+  set_pose(data, cells, this->pose(this->posed_));
+  return data;
+}
+
 Status read_gltf(const std::string& path, GltfData& data)
 {
   data = GltfData();
@@ -295,52 +329,28 @@ Status read_gltf(const std::string& path, GltfData& data)
   add_attributes(skin, data.mesh);
   data.frames_per_second = skin.frames_per_second;
   data.buffer_files = skin.buffer_files;
+  data.handles = vtkSmartPointer<vtkPolyData>::New();
   if (skin.joints.empty())
   {
-    data.handles = vtkSmartPointer<vtkPolyData>::New();
     return status;
   }
-  HandleMaker maker(skin);
-  Handles& handles = data.handle_list;
-  handles = maker.make();
-  std::vector<Index> order;
-  sort_handles(handles, order);
-  const Status usable = check_handles(handles);
+  JointHandles joints;
+  const Status usable = joints.make(skin.points, skin.joints, skin.weights.colwise().maxCoeff());
   if (!usable.ok())
   {
     return Status::invalid_input(path + ": " + usable.message);
   }
-  // If the handle's frame equals the joint's frame up to float round-off, use the handle's frame.
-  // It is more accurate if the handle was read from the joint's extras, which store all digits.
-  std::vector<Eigen::Affine3d> rest;
-  std::vector<Eigen::Affine3d> posed;
+  data.handle_list = joints.handles();
+  data.handles = joints.posed_handles();
   Weights weights(skin.weights.rows(), skin.weights.cols());
-  for (std::size_t h = 0; h < handles.size(); ++h)
+  for (std::size_t h = 0; h < joints.order().size(); ++h)
   {
-    const GltfJoint& joint = skin.joints[order[h]];
-    const Eigen::Affine3d frame = joint_frame(handles[h]);
-    const double size = std::max(maker.extent() + joint.rest.translation().norm(), 1.0);
-    const bool is_joint_frame =
-      (frame.matrix() - joint.rest.matrix()).cwiseAbs().maxCoeff() <= float_error * size;
-    rest.push_back(is_joint_frame ? frame : joint.rest);
-    posed.push_back(joint.posed);
-    weights.col(static_cast<Index>(h)) = skin.weights.col(order[h]);
+    weights.col(static_cast<Index>(h)) = skin.weights.col(joints.order()[h]);
   }
-  data.mesh->GetPointData()->AddArray(to_weights_array("Weights", weights, handles));
-  data.handles = to_polydata(handles);
-  std::vector<Index> cells(handles.size());
-  for (std::size_t h = 0; h < cells.size(); ++h)
-  {
-    cells[h] = static_cast<Index>(h);
-  }
-  set_pose(data.handles, cells, to_pose(posed, rest, maker.extent()));
+  data.mesh->GetPointData()->AddArray(to_weights_array("Weights", weights, joints.handles()));
   for (const GltfFrame& frame : skin.frames)
   {
-    for (std::size_t h = 0; h < order.size(); ++h)
-    {
-      posed[h] = frame.posed[order[h]];
-    }
-    data.poses.push_back(to_pose(posed, rest, maker.extent()));
+    data.poses.push_back(joints.pose(frame.posed));
   }
   return status;
 }

@@ -21,6 +21,34 @@ Eigen::Affine3d to_affine(const Affine& transform);
 /// properties of the handle that glTF cannot express.
 std::vector<GltfJoint> to_joints(const Handles& handles, const std::vector<Affine>& transforms);
 
+/// The handles of the joints of a skin.
+class JointHandles
+{
+public:
+  /// Make one handle per joint. Return invalid_input if the handles cannot be used.
+  /// @param points of the meshes, for tolerances
+  /// @param largest_weights largest weight of each joint
+  Status make(const Points& points, const std::vector<GltfJoint>& joints,
+    const Eigen::RowVectorXd& largest_weights);
+
+  /// The handles. Bones are last, as in handle datasets.
+  const Handles& handles() const { return this->handles_; }
+  /// The joint of each handle.
+  const std::vector<Index>& order() const { return this->order_; }
+  /// Return the pose of the handles.
+  /// @param posed joint-to-scene transforms like GltfJoint::posed, one per joint
+  Pose pose(const std::vector<Eigen::Affine3d>& posed) const;
+  /// Return the handles as a dataset, with the pose of the joints' nodes.
+  vtkSmartPointer<vtkPolyData> posed_handles() const;
+
+private:
+  Handles handles_;
+  std::vector<Index> order_;
+  std::vector<Eigen::Affine3d> rest_; ///< rest frames of the handles' joints
+  std::vector<Eigen::Affine3d> posed_; ///< transforms of the joints' nodes
+  double extent_ = 1.0; ///< diagonal of the box of points and joints
+};
+
 /// Contents of a glTF file.
 struct GltfData
 {

@@ -1,10 +1,11 @@
-// Connects the kernel of gltf/gltf_asset.h to VTK.
+// Connects the kernel of gltf/gltf_asset.h to VTK; gltf_data.h converts joints to handles.
 #include "vtkAssetReader.h"
 
 #include "base/execution.h"
 #include "conversion.h"
 #include "file_kind.h"
 #include "gltf/gltf_asset.h"
+#include "gltf_data.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -18,6 +19,7 @@ vtkStandardNewMacro(vtkAssetReader);
 vtkAssetReader::vtkAssetReader()
 {
   this->SetNumberOfInputPorts(0);
+  this->SetNumberOfOutputPorts(2);
 }
 
 vtkAssetReader::~vtkAssetReader()
@@ -42,11 +44,23 @@ Status vtkAssetReader::Execute(
   {
     status = asset.read(path);
   }
-  if (status.ok())
+  if (!status.ok())
   {
-    vtkPolyData::GetData(output)->ShallowCopy(
-      to_polydata(PointsView(asset.points()), TrianglesView(asset.triangles())));
+    return status;
   }
+  status.report.set("counts.joints", asset.joints().size());
+  if (!asset.joints().empty())
+  {
+    JointHandles joints;
+    const Status usable = joints.make(asset.points(), asset.joints(), asset.largest_weights());
+    if (!usable.ok())
+    {
+      return Status::invalid_input(path + ": " + usable.message);
+    }
+    vtkPolyData::GetData(output, 1)->ShallowCopy(joints.posed_handles());
+  }
+  vtkPolyData::GetData(output, 0)->ShallowCopy(
+    to_polydata(PointsView(asset.points()), TrianglesView(asset.triangles())));
   return status;
 }
 

@@ -16,7 +16,7 @@
  * never causes a crash or a partial mesh.
  *
  * Report: counts.meshes (nodes with triangles), counts.vertices, counts.triangles,
- * counts.skipped_primitives (points and lines).
+ * counts.skipped_primitives (points and lines), counts.joints.
  *
  * @sa vtkGLTFSkinWriter vtkGLTFSkinReader
  */

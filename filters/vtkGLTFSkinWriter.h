@@ -40,9 +40,11 @@
  * **Assets**: with AssetFileName, a copy of this glTF file is written, and the meshes of its
  * default scene get the skin. Input 0 must have the points of vtkAssetReader for this file, with
  * weights. Everything but skins, joints and weights is kept: nodes, materials, textures, vertex
- * attributes, cameras, animations, extras and unknown extensions. A node with a mesh does not move
- * the skinned mesh; if an animation of the file moves only some of the meshes by their nodes, this
- * motion is lost, with a warning. Frames are stored as an animation of the joints.
+ * attributes, cameras, animations, extras and unknown extensions. If the handles are those of
+ * vtkAssetReader, at the same rest positions, the joints of the file are kept, with their poses and
+ * animations. A skin replaces the motion of the nodes of its meshes; an animation of the file that
+ * moves only some of the meshes by their nodes, or joints that are replaced, is lost, with a
+ * warning. Frames are stored as an animation of the joints.
  *
  * The file is written under a temporary name next to its target and renamed at the end; a failure
  * or cancel leaves no file. An existing file is an error unless Overwrite is on.
@@ -50,7 +52,8 @@
  * Report: counts.{vertices, triangles, meshes, joints, frames, dropped_weights}, sets, rest_joint
  * (yes or no), dropped_share (the largest fraction of a row that MaximumInfluences dropped),
  * pose_error (like animation_error, for the pose of the handles), animation (joints, morph),
- * animation_error, file_bytes, losses[] (one phrase for each lost motion of an asset).
+ * animation_error, file_bytes; of an asset also kept_joints (yes or no) and losses[] (one phrase
+ * for each lost motion).
  *
  * Errors (INVALID_INPUT, one sentence): no triangles or tets, points that are not those of the
  * asset, weights that do not match the handles, numbers that are not finite floats, frames with a

@@ -43,7 +43,7 @@ from .errors import (
     Unavailable,
 )
 from .fairing import fair
-from .files import read, read_asset, read_handles, write
+from .files import Asset, read, read_asset, read_handles, write
 from .functions import contains, defects, dynamics, planar_shape, tetrahedralize, weights, winding_number
 from .handle_sets import automatic_handles, farthest_point_handles, handles
 from .meshes import Array, PlanarShape, Tets

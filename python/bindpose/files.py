@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from typing import NamedTuple
 
 from vtkmodules.vtkCommonDataModel import vtkDataSet, vtkPolyData
 
@@ -48,7 +49,14 @@ def read(path: Path) -> vtkDataSet:
     return reader.GetOutput()
 
 
-def read_asset(path: Path) -> vtkPolyData:
+class Asset(NamedTuple):
+    """The meshes and joints of a file that can get a new rig."""
+
+    mesh: vtkPolyData
+    handles: vtkPolyData
+
+
+def read_asset(path: Path) -> Asset:
     """Read the triangles of all meshes of a glTF file, for a new rig of the whole file.
 
     Parameters
@@ -58,10 +66,11 @@ def read_asset(path: Path) -> vtkPolyData:
 
     Returns
     -------
-    vtkPolyData
-        The meshes of the default scene, in scene coordinates. `Rig.save` and `write_rig` with the parameter ``asset``
-        write a copy of the file with the weights of these points; the copy keeps materials, textures, cameras,
-        animations and everything else.
+    Asset
+        ``mesh``: the meshes of the default scene, in scene coordinates. ``handles``: the joints of their skins. `Rig.save`
+        and `write_rig` with the parameter ``asset`` write a copy of the file with new weights. The copy keeps materials,
+        textures, cameras, animations and everything else. If the rig has the handles of the asset, the copy also keeps
+        the joints, and their animations move the meshes.
 
     Raises
     ------
@@ -73,7 +82,7 @@ def read_asset(path: Path) -> vtkPolyData:
     >>> tetrahedron = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
     ...                [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
     >>> bindpose.write(tetrahedron, "asset.glb")
-    >>> mesh = bindpose.read_asset("asset.glb")
+    >>> mesh = bindpose.read_asset("asset.glb").mesh
     >>> rig = bindpose.bind(mesh, bindpose.handles(points=[[0, 0, 0], [1, 0, 0]]), domain="surface")
     >>> rig.save("rigged.glb", asset="asset.glb", maximum_influences=4)["counts"]["joints"]
     2
@@ -81,7 +90,7 @@ def read_asset(path: Path) -> vtkPolyData:
     reader = vtkAssetReader()
     reader.SetFileName(os.fspath(path))
     run(reader)
-    return reader.GetOutput()
+    return Asset(reader.GetOutputDataObject(0), reader.GetOutputDataObject(1))
 
 
 def read_handles(path: Path) -> vtkPolyData:

@@ -55,7 +55,7 @@ def test_rigs(tmp_path):
 def test_assets(tmp_path):
     foreign_rig.write_foreign_rig(tmp_path / "c.gltf", animations=1)
     (tmp_path / "skin.png").write_bytes(b"picture")
-    mesh = bindpose.read_asset(tmp_path / "c.gltf")
+    mesh, joints = bindpose.read_asset(tmp_path / "c.gltf")
     assert bindpose.report(mesh)["counts"]["meshes"] == len(foreign_rig.BOXES)
     ends = bindpose.handles(points=[[0, 0, 0], [0, 2, 0]])
     rig = bindpose.bind(mesh, ends, domain="surface")
@@ -63,10 +63,14 @@ def test_assets(tmp_path):
         report = rig.save(tmp_path / "out.glb", asset=tmp_path / "c.gltf", maximum_influences=4,
                           frames=[{"p2": {"translate": [0, k, 0]}} for k in range(2)], fps=4)
     assert report["losses"] == ["1 animation of the old joints"] and report["counts"]["frames"] == 2
-    assert report["animation_error"] < 1e-6
+    assert report["animation_error"] < 1e-6 and report["kept_joints"] == "no"
+    # New weights for the joints of the file keep the joints and their animation.
+    own = bindpose.bind(mesh, joints, domain="surface").save(tmp_path / "own.glb", asset=tmp_path / "c.gltf")
+    assert own["kept_joints"] == "yes" and "losses" not in own
     # The file has the points of the asset, and its rest pose.
     again = bindpose.read_asset(tmp_path / "out.glb")
-    assert points_of(again) == pytest.approx(points_of(mesh), abs=1e-5)
+    assert again.handles.GetNumberOfCells() == 2
+    assert points_of(again.mesh) == pytest.approx(points_of(mesh), abs=1e-5)
     with pytest.raises(bindpose.InvalidInput, match="does not belong to the asset .*c.gltf: it has 8 points"):
         bindpose.bind(shapes.cube(), bindpose.handles(points=[[1, 1, 1], [0, 0, 0]])).save(
             tmp_path / "cube.glb", asset=tmp_path / "c.gltf")

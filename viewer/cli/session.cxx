@@ -261,13 +261,18 @@ vtkSmartPointer<vtkDataSet> Session::read_any(const std::string& path)
   return this->read(path);
 }
 
-vtkSmartPointer<vtkPolyData> Session::read_asset(const std::string& path)
+bool Session::read_asset(const std::string& path, vtkSmartPointer<vtkPolyData>& mesh,
+  vtkSmartPointer<vtkPolyData>& handles)
 {
   vtkNew<vtkAssetReader> reader;
   reader->SetFileName(path.c_str());
-  return this->run_before(reader, "read", reading_fraction)
-    ? vtkPolyData::SafeDownCast(reader->GetOutput())
-    : nullptr;
+  if (!this->run_before(reader, "read", reading_fraction))
+  {
+    return false;
+  }
+  mesh = vtkPolyData::SafeDownCast(reader->GetOutputDataObject(0));
+  handles = vtkPolyData::SafeDownCast(reader->GetOutputDataObject(1));
+  return true;
 }
 
 vtkSmartPointer<vtkPolyData> Session::read_handles(const std::string& value, vtkDataSet* surface)

@@ -68,8 +68,9 @@ public:
   vtkSmartPointer<vtkDataSet> read(const std::string& path);
   /// Read like read(), including .tgf handle files.
   vtkSmartPointer<vtkDataSet> read_any(const std::string& path);
-  /// Read the meshes of a glTF file that gets a new rig; return null on failure.
-  vtkSmartPointer<vtkPolyData> read_asset(const std::string& path);
+  /// Read a glTF file that gets a new rig. Set its meshes and the handles of its joints.
+  bool read_asset(const std::string& path, vtkSmartPointer<vtkPolyData>& mesh,
+    vtkSmartPointer<vtkPolyData>& handles);
   /// Return the handles for the value of --handles, which is a file, auto[:N] (N points on the
   /// surface) or skeleton[:N] (N bones inside the surface). Return null on failure.
   vtkSmartPointer<vtkPolyData> read_handles(const std::string& value, vtkDataSet* surface);

@@ -1,5 +1,5 @@
-// Implements bindpose rig ASSET -o OUT.glb. The points of all meshes of a glTF file get weights, and
-// a copy of the file is written with the new skin.
+// Implements bindpose rig ASSET -o OUT.glb. The points of all meshes of a glTF file get weights,
+// and a copy of the file is written with the new skin. With --handles ASSET the joints are kept.
 #include "cli/session.h"
 #include "cli/verbs.h"
 #include "cli/weights_stage.h"
@@ -10,6 +10,8 @@
 #include "vtkDataSet.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
+
+#include <filesystem>
 
 namespace bindpose::cli
 {
@@ -47,8 +49,22 @@ void run_rig(Session& session)
     return;
   }
   const std::string asset = arguments.text("ASSET");
-  const auto mesh = session.read_asset(asset);
-  const auto handles = mesh ? session.read_handles(arguments.text("handles"), mesh) : nullptr;
+  vtkSmartPointer<vtkPolyData> mesh, handles;
+  if (!session.read_asset(asset, mesh, handles))
+  {
+    return;
+  }
+  const std::string handle_file = arguments.text("handles");
+  std::error_code not_a_file; // such as the word skeleton
+  if (!std::filesystem::equivalent(handle_file, asset, not_a_file))
+  {
+    handles = session.read_handles(handle_file, mesh);
+  }
+  else if (handles->GetNumberOfCells() == 0)
+  {
+    session.invalid(asset + " has no joints; use --handles skeleton");
+    return;
+  }
   const auto weighted = handles ? compute_weights(session, mesh, handles) : nullptr;
   if (!weighted)
   {

@@ -9,12 +9,9 @@
 #include "io/text_scanner.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <iterator>
 #include <map>
-#include <numeric>
 #include <set>
-#include <tuple>
 #include <utility>
 
 namespace bindpose
@@ -23,68 +20,6 @@ namespace bindpose
 namespace
 {
 using Json = GltfDocument::Json;
-
-/// Return the nodes of the default scene, parents first. A file without scenes has all its nodes in
-/// one scene.
-std::vector<int> scene_nodes(const tinygltf::Model& model)
-{
-  std::vector<int> ids;
-  if (model.scenes.empty())
-  {
-    ids.resize(model.nodes.size());
-    std::iota(ids.begin(), ids.end(), 0);
-    return ids;
-  }
-  std::vector<char> found(model.nodes.size(), 0);
-  const auto add = [&](int id)
-  {
-    gltf_element(model.nodes, id, "node");
-    if (!found[id])
-    {
-      found[id] = 1;
-      ids.push_back(id);
-    }
-  };
-  const tinygltf::Scene& scene =
-    gltf_element(model.scenes, std::max(0, model.defaultScene), "scene");
-  std::for_each(scene.nodes.begin(), scene.nodes.end(), add);
-  for (std::size_t k = 0; k < ids.size(); ++k)
-  {
-    const std::vector<int>& children = model.nodes[ids[k]].children;
-    std::for_each(children.begin(), children.end(), add);
-  }
-  return ids;
-}
-
-/// Return the transform by which a skin moves its meshes if it is in the bind pose: all joints then
-/// have the same transform. Otherwise return the identity and set `posed`.
-Eigen::Affine3d bind_transform(const tinygltf::Model& model, const GltfAccessors& accessors,
-  const std::vector<Eigen::Affine3d>& node_to_scene, const tinygltf::Skin& skin, bool& posed)
-{
-  posed = true;
-  if (skin.joints.empty() || skin.inverseBindMatrices < 0)
-  {
-    return Eigen::Affine3d::Identity();
-  }
-  const std::vector<Eigen::Affine3d> inverse_binds = read_inverse_binds(accessors, skin);
-  Eigen::Affine3d first = Eigen::Affine3d::Identity();
-  for (std::size_t j = 0; j < skin.joints.size(); ++j)
-  {
-    gltf_element(model.nodes, skin.joints[j], "node");
-    const Eigen::Affine3d map = node_to_scene[skin.joints[j]] * inverse_binds[j];
-    constexpr double tolerance = 1e-4; // matrices are stored as floats
-    if (j == 0)
-    {
-      first = map;
-    }
-    else if (!((map.matrix() - first.matrix()).norm() <= tolerance * first.matrix().norm()))
-    {
-      return Eigen::Affine3d::Identity();
-    }
-  }
-  posed = false;
-  return first;
-}
 
 /// Replace the weights of each vertex that no triangle uses by those of the nearest point of a
 /// triangle.
@@ -164,150 +99,6 @@ void remove_unused_skins(GltfDocument& document)
 }
 } // namespace
 
-/// Reads the meshes of a scene.
-struct GltfAsset::Reader
-{
-  Reader(GltfAsset& asset, const tinygltf::Model& model, std::size_t file_size, Status& status)
-    : asset_(asset), model_(model), accessors_(model, file_size), status_(status)
-  {
-  }
-
-  void read()
-  {
-    const GltfNodes nodes = read_gltf_nodes(this->model_);
-    this->asset_.scene_ = std::max(0, this->model_.defaultScene);
-    this->asset_.parents_ = nodes.parents;
-    this->asset_.node_to_scene_ = nodes.scene_transforms();
-    this->asset_.mesh_to_scene_ = this->asset_.node_to_scene_;
-    this->asset_.animated_.assign(this->model_.nodes.size(), 0);
-    for (const tinygltf::Animation& animation : this->model_.animations)
-    {
-      for (const tinygltf::AnimationChannel& channel : animation.channels)
-      {
-        if (channel.target_node >= 0 && channel.target_path != "weights")
-        {
-          gltf_element(this->model_.nodes, channel.target_node, "node");
-          this->asset_.animated_[channel.target_node] = 1;
-        }
-      }
-    }
-    for (const int id : scene_nodes(this->model_))
-    {
-      if (this->model_.nodes[id].mesh >= 0)
-      {
-        this->read_mesh(id);
-      }
-    }
-    if (this->triangles_.empty())
-    {
-      throw GltfError("the default scene contains no triangles");
-    }
-    this->asset_.points_.resize(static_cast<Index>(this->points_.size()), 3);
-    for (std::size_t v = 0; v < this->points_.size(); ++v)
-    {
-      this->asset_.points_.row(static_cast<Index>(v)) = this->points_[v];
-    }
-    if (!this->asset_.points_.allFinite())
-    {
-      throw GltfError("a vertex has a coordinate that is not finite");
-    }
-    this->asset_.triangles_ = to_matrix(this->triangles_);
-    this->count_joint_animations();
-    if (this->posed_meshes_ > 0)
-    {
-      this->status_.warnings.push_back(std::to_string(this->posed_meshes_) +
-        (this->posed_meshes_ == 1 ? " mesh is" : " meshes are") +
-        " not in the bind pose of the skin; the new skin begins with the bind pose");
-    }
-    Report& report = this->status_.report;
-    report.set("counts.meshes", this->meshes_);
-    report.set("counts.vertices", this->asset_.points_.rows());
-    report.set("counts.triangles", this->asset_.triangles_.rows());
-    report.set("counts.skipped_primitives", this->skipped_);
-  }
-
-private:
-  void read_mesh(int id)
-  {
-    const tinygltf::Node& node = this->model_.nodes[id];
-    const tinygltf::Mesh& mesh = gltf_element(this->model_.meshes, node.mesh, "mesh");
-    if (std::none_of(mesh.primitives.begin(), mesh.primitives.end(), has_triangles))
-    {
-      this->skipped_ += static_cast<Index>(mesh.primitives.size());
-      return;
-    }
-    if (node.skin >= 0)
-    {
-      const tinygltf::Skin& skin = gltf_element(this->model_.skins, node.skin, "skin");
-      bool posed = false;
-      this->asset_.mesh_to_scene_[id] =
-        bind_transform(this->model_, this->accessors_, this->asset_.node_to_scene_, skin, posed);
-      this->posed_meshes_ += posed ? 1 : 0;
-      this->old_joints_.insert(skin.joints.begin(), skin.joints.end());
-    }
-    this->meshes_ += 1;
-    std::map<int, Index> first_of_accessor; // primitives with different materials share vertices
-    for (std::size_t k = 0; k < mesh.primitives.size(); ++k)
-    {
-      const tinygltf::Primitive& primitive = mesh.primitives[k];
-      const auto position = primitive.attributes.find("POSITION");
-      if (position == primitive.attributes.end())
-      {
-        throw GltfError("a mesh has no attribute POSITION");
-      }
-      const auto [entry, is_new] =
-        first_of_accessor.insert({ position->second, static_cast<Index>(this->points_.size()) });
-      const Index count = is_new
-        ? this->add_points(position->second, this->asset_.mesh_to_scene_[id])
-        : static_cast<Index>(
-            gltf_element(this->model_.accessors, position->second, "accessor").count);
-      this->asset_.parts_.push_back({ id, static_cast<int>(k), entry->second, count });
-      if (!has_triangles(primitive))
-      {
-        this->skipped_ += 1;
-        continue;
-      }
-      for (const auto& t : read_gltf_triangles(this->accessors_, primitive, count))
-      {
-        this->triangles_.push_back(
-          { entry->second + t[0], entry->second + t[1], entry->second + t[2] });
-      }
-    }
-  }
-
-  void count_joint_animations()
-  {
-    for (const tinygltf::Animation& animation : this->model_.animations)
-    {
-      const auto moves_joint = [this](const tinygltf::AnimationChannel& channel)
-      { return this->old_joints_.count(channel.target_node) > 0; };
-      this->asset_.joint_animations_ +=
-        std::any_of(animation.channels.begin(), animation.channels.end(), moves_joint) ? 1 : 0;
-    }
-  }
-
-  Index add_points(int accessor, const Eigen::Affine3d& mesh_to_scene)
-  {
-    const GltfNumbers rows = this->accessors_.read_finite(accessor, TINYGLTF_TYPE_VEC3, "POSITION");
-    for (Index v = 0; v < rows.rows(); ++v)
-    {
-      this->points_.emplace_back(mesh_to_scene * Vec3(rows.row(v).transpose()));
-    }
-    return rows.rows();
-  }
-
-  GltfAsset& asset_;
-  const tinygltf::Model& model_;
-  const GltfAccessors accessors_;
-  Status& status_;
-  std::vector<Vec3> points_;
-  std::vector<std::array<Index, 3>> triangles_;
-  Index meshes_ = 0;
-  Index skipped_ = 0;
-  Index posed_meshes_ = 0; ///< number of meshes that are not in the bind pose
-  std::set<int> old_joints_; ///< nodes of the joints of the meshes' skins
-};
-
 Status GltfAsset::read(const std::string& path)
 {
   *this = GltfAsset();
@@ -316,7 +107,7 @@ Status GltfAsset::read(const std::string& path)
     {
       this->document_ =
         GltfDocument(content.bytes, content.model, content.files.folder, found.warnings);
-      Reader(*this, content.model, content.bytes.size(), found).read();
+      this->meshes_ = read_gltf_scene(content.model, content.bytes.size(), found);
     });
   if (!status.ok())
   {
@@ -326,52 +117,136 @@ Status GltfAsset::read(const std::string& path)
   return status;
 }
 
-GltfJointNodes GltfAsset::add_skeleton(const std::vector<GltfJoint>& joints,
-  const std::vector<Trs>& local_transforms, bool rest_joint, Status& status)
+std::optional<std::vector<Index>> GltfAsset::find_joints(const std::vector<GltfJoint>& joints) const
 {
-  const GltfJointNodes nodes = append_joints(this->document_, joints, local_transforms, rest_joint);
-  std::set<int> meshes;
-  std::map<int, Index> moved_meshes; // per animated node: number of the meshes that it moves
-  for (const Part& part : this->parts_)
+  constexpr double tolerance = 1e-5; // in bounding-box diagonals; files store floats
+  const double diagonal = bounding_box(this->points(), this->triangles()).diagonal();
+  std::map<std::string, Index> id_of_name;
+  for (std::size_t j = 0; j < this->joints().size(); ++j)
   {
-    for (int id = meshes.insert(part.node).second ? part.node : -1; id >= 0;
-         id = this->parents_[id])
+    id_of_name[this->joints()[j].name] = static_cast<Index>(j);
+  }
+  std::vector<Index> ids;
+  for (const GltfJoint& joint : joints)
+  {
+    const auto entry = id_of_name.find(joint.name);
+    if (entry == id_of_name.end() ||
+      !((this->joints()[entry->second].rest.translation() - joint.rest.translation()).norm() <=
+        tolerance * diagonal))
     {
-      moved_meshes[id] += this->animated_[id];
+      return {};
+    }
+    ids.push_back(entry->second);
+  }
+  return ids;
+}
+
+GltfJointNodes GltfAsset::keep_joints(const std::vector<Index>& ids, GltfSkin& skin) const
+{
+  const GltfSkinJoints& old = this->meshes_.skin_joints;
+  const auto to_scene = [this](int node)
+  { return node < 0 ? Eigen::Affine3d::Identity() : this->meshes_.node_to_scene[node]; };
+  std::vector<Index> new_id(old.joints.size(), -1);
+  for (std::size_t j = 0; j < ids.size(); ++j)
+  {
+    new_id[ids[j]] = static_cast<Index>(j);
+  }
+  GltfJointNodes nodes;
+  std::vector<Eigen::Affine3d> from_new_to_old; // changes of the rest frames
+  for (std::size_t j = 0; j < ids.size(); ++j)
+  {
+    GltfJoint joint = old.joints[ids[j]];
+    nodes.joints.push_back(old.nodes[ids[j]]);
+    Index parent = joint.parent;
+    while (parent >= 0 && new_id[parent] < 0) // the skin does not have all joints
+    {
+      parent = old.joints[parent].parent;
+    }
+    joint.parent = parent < 0 ? -1 : new_id[parent];
+    joint.to_parent_joint = to_scene(parent < 0 ? -1 : old.nodes[parent]).inverse() *
+      to_scene(this->meshes_.parents[nodes.joints.back()]);
+    from_new_to_old.push_back(skin.joints[j].rest.inverse() * joint.rest);
+    skin.joints[j] = joint;
+  }
+  for (GltfFrame& frame : skin.frames)
+  {
+    for (std::size_t j = 0; j < ids.size(); ++j)
+    {
+      frame.posed[j] = frame.posed[j] * from_new_to_old[j];
     }
   }
-  // The joints move with `parent`, so the motion of this node and of its parents is kept.
-  int parent = -1;
-  for (int id = *meshes.begin(); id >= 0 && parent < 0; id = this->parents_[id])
+  return nodes;
+}
+
+int GltfAsset::common_mover() const
+{
+  for (const int node : this->meshes_.movers.begin()->second)
   {
-    const bool moves_all = moved_meshes[id] == static_cast<Index>(meshes.size());
-    parent = moves_all && this->node_to_scene_[id].linear().determinant() != 0.0 ? id : -1;
+    const bool moves_all = std::all_of(this->meshes_.movers.begin(), this->meshes_.movers.end(),
+      [node](const auto& entry)
+      { return std::find(entry.second.begin(), entry.second.end(), node) != entry.second.end(); });
+    if (moves_all && this->meshes_.animated[node] &&
+      this->meshes_.node_to_scene[node].linear().determinant() != 0.0)
+    {
+      return node;
+    }
+  }
+  return -1;
+}
+
+void GltfAsset::report_losses(bool keeps_joints, Status& status) const
+{
+  const auto with_ancestors = [this](int node, std::set<int>& nodes)
+  {
+    for (; node >= 0; node = this->meshes_.parents[node])
+    {
+      nodes.insert(node);
+    }
+  };
+  std::set<int> kept; // nodes that move the joints of the new skin
+  with_ancestors(this->common_mover(), kept);
+  for (const int node : this->meshes_.skin_joints.nodes)
+  {
+    with_ancestors(keeps_joints ? node : -1, kept);
+  }
+  std::set<int> lost;
+  for (const auto& [mesh, movers] : this->meshes_.movers)
+  {
+    std::copy_if(movers.begin(), movers.end(), std::inserter(lost, lost.end()),
+      [&](int node) { return this->meshes_.animated[node] && kept.count(node) == 0; });
   }
   std::vector<std::string> losses;
-  for (const auto& [id, count] : moved_meshes)
+  for (const int node : lost)
   {
-    if (count > 0 && count < static_cast<Index>(meshes.size()))
-    {
-      losses.push_back("the animation of node '" +
-        sanitize_line(this->document_.list("nodes")[id].value("name", std::to_string(id))) + "'");
-      status.warnings.push_back(
-        losses.back() + " no longer moves its mesh, because the skin moves the mesh");
-    }
+    const Json& json = this->document_.json()["nodes"][node];
+    losses.push_back(
+      "the animation of node '" + sanitize_line(json.value("name", std::to_string(node))) + "'");
+    status.warnings.push_back(
+      losses.back() + " no longer moves its mesh, because the skin moves the mesh");
   }
-  if (this->joint_animations_ > 0)
+  const Index animations = keeps_joints ? 0 : this->meshes_.joint_animations;
+  if (animations > 0)
   {
-    losses.push_back(std::to_string(this->joint_animations_) +
-      (this->joint_animations_ == 1 ? " animation" : " animations") + " of the old joints");
-    status.warnings.push_back(losses.back() + " no longer move the meshes");
+    losses.push_back(std::to_string(animations) + (animations == 1 ? " animation" : " animations") +
+      " of the old joints");
+    status.warnings.push_back(
+      losses.back() + (animations == 1 ? " no longer moves" : " no longer move") + " the meshes");
   }
   if (!losses.empty())
   {
     status.report.set("losses[]", losses);
   }
+}
+
+GltfJointNodes GltfAsset::add_skeleton(
+  const std::vector<GltfJoint>& joints, const std::vector<Trs>& local_transforms, bool rest_joint)
+{
+  const GltfJointNodes nodes = append_joints(this->document_, joints, local_transforms, rest_joint);
   Json& json_nodes = this->document_.list("nodes");
+  const int parent = this->common_mover();
   if (parent >= 0)
   {
-    const Eigen::Matrix4d inverse = this->node_to_scene_[parent].inverse().matrix();
+    const Eigen::Matrix4d inverse = this->meshes_.node_to_scene[parent].inverse().matrix();
     json_nodes[nodes.root]["matrix"] =
       std::vector<double>(inverse.data(), inverse.data() + inverse.size());
     json_nodes[parent]["children"].push_back(nodes.root);
@@ -381,9 +256,9 @@ GltfJointNodes GltfAsset::add_skeleton(const std::vector<GltfJoint>& joints,
   if (scenes.empty())
   {
     Json roots = Json::array();
-    for (std::size_t id = 0; id < this->parents_.size(); ++id)
+    for (std::size_t id = 0; id < this->meshes_.parents.size(); ++id)
     {
-      if (this->parents_[id] < 0)
+      if (this->meshes_.parents[id] < 0)
       {
         roots.push_back(id);
       }
@@ -391,18 +266,19 @@ GltfJointNodes GltfAsset::add_skeleton(const std::vector<GltfJoint>& joints,
     this->document_.json()["scene"] = 0;
     scenes.push_back({ { "nodes", std::move(roots) } });
   }
-  scenes[this->scene_]["nodes"].push_back(nodes.root);
+  scenes[this->meshes_.scene]["nodes"].push_back(nodes.root);
   return nodes;
 }
 
 Status GltfAsset::check(const GltfSkin& skin, Index maximum_influences) const
 {
-  if (skin.weights.rows() != this->points_.rows() ||
+  const Index vertices = this->points().rows();
+  if (skin.weights.rows() != vertices ||
     skin.weights.cols() != static_cast<Index>(skin.joints.size()) || skin.joints.empty())
   {
     return Status::invalid_input("the weights have " + std::to_string(skin.weights.rows()) +
       " rows and " + std::to_string(skin.weights.cols()) + " columns; expected " +
-      std::to_string(this->points_.rows()) + " rows and " + std::to_string(skin.joints.size()) +
+      std::to_string(vertices) + " rows and " + std::to_string(skin.joints.size()) +
       " columns, at least one");
   }
   if (!fits_in_float(skin.weights) || maximum_influences < 0)
@@ -415,8 +291,7 @@ Status GltfAsset::check(const GltfSkin& skin, Index maximum_influences) const
   return status.ok() ? check_frames(skin, GltfAnimation::joints) : status;
 }
 
-Status GltfAsset::set_skin(
-  ExecutionContext& context, const GltfSkin& skin, Index maximum_influences)
+Status GltfAsset::set_skin(ExecutionContext& context, GltfSkin skin, Index maximum_influences)
 {
   const Status status = this->check(skin, maximum_influences);
   if (!status.ok())
@@ -433,31 +308,41 @@ Status GltfAsset::set_skin(
   }
 }
 
-Status GltfAsset::replace_skins(
-  ExecutionContext& context, const GltfSkin& skin, Index maximum_influences)
+Status GltfAsset::replace_skins(ExecutionContext& context, GltfSkin& skin, Index maximum_influences)
 {
-  Weights weights = skin.weights;
-  fill_unused_rows(this->points_, this->triangles_, weights);
-  const GltfWeights packed = to_gltf_weights(weights, maximum_influences);
+  fill_unused_rows(this->points(), this->triangles(), skin.weights);
+  const GltfWeights packed = to_gltf_weights(skin.weights, maximum_influences);
+  const std::optional<std::vector<Index>> own =
+    packed.rest_joint ? std::nullopt : this->find_joints(skin.joints);
+  GltfJointNodes nodes;
+  if (own)
+  {
+    nodes = this->keep_joints(*own, skin);
+  }
   std::vector<Eigen::Affine3d> exact_maps, stored_maps;
   for (const GltfJoint& joint : skin.joints)
   {
     exact_maps.push_back(joint.posed);
   }
   const std::vector<Trs> local_transforms = local_maps(skin.joints, exact_maps, stored_maps);
-  Status status;
-  const GltfJointNodes nodes =
-    this->add_skeleton(skin.joints, local_transforms, packed.rest_joint, status);
+  if (!own)
+  {
+    nodes = this->add_skeleton(skin.joints, local_transforms, packed.rest_joint);
+  }
   this->attach_skin(skin.joints, packed, nodes);
   remove_unused_skins(this->document_);
 
-  const GltfStoredSkin stored{ this->points_, skin.joints, weights, packed };
+  Status status;
+  this->report_losses(own.has_value(), status);
+  const GltfStoredSkin stored{ this->points(), skin.joints, skin.weights, packed };
   const double diagonal =
-    std::max(bounding_box(this->points_, this->triangles_).diagonal(), 1e-300);
+    std::max(bounding_box(this->points(), this->triangles()).diagonal(), 1e-300);
   Report& report = status.report;
   report.set("counts.joints", skin.joints.size());
+  report.set("kept_joints", own ? "yes" : "no");
   report_weights(packed, status);
-  report.set("pose_error", largest_pose_error(stored, exact_maps, stored_maps) / diagonal);
+  report.set("pose_error",
+    largest_pose_error(stored, exact_maps, own ? exact_maps : stored_maps) / diagonal);
   if (!skin.frames.empty())
   {
     double error = 0.0;
@@ -481,17 +366,18 @@ void GltfAsset::attach_skin(
   std::map<Index, Json> attributes_of_vertices; // by the first vertex
   std::set<int> edited_meshes;
   int last_node = -1;
-  for (const Part& part : this->parts_)
+  for (const GltfPart& part : this->meshes_.parts)
   {
     Json& node = this->document_.list("nodes")[part.node];
     if (part.node != last_node)
     {
       last_node = part.node;
-      const Eigen::Matrix4d map = this->mesh_to_scene_[part.node].matrix();
+      const Eigen::Matrix4d map = this->meshes_.mesh_to_scene[part.node].matrix();
       const auto [skin, is_new] = skins.insert({ { map.data(), map.data() + map.size() }, -1 });
       if (is_new)
       {
-        skin->second = append_skin(this->document_, joints, nodes, this->mesh_to_scene_[part.node]);
+        skin->second =
+          append_skin(this->document_, joints, nodes, this->meshes_.mesh_to_scene[part.node]);
       }
       node["skin"] = skin->second;
       const int mesh = node["mesh"].get<int>();

@@ -7,9 +7,11 @@
 #include "geometry/mesh.h"
 #include "gltf/gltf_document.h"
 #include "gltf/gltf_joints.h"
+#include "gltf/gltf_scene_meshes.h"
 #include "gltf/gltf_skin.h"
 #include "gltf/gltf_weights.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,26 +24,31 @@ namespace bindpose
 class GltfAsset
 {
 public:
-  /// Read a .gltf or .glb file. If a mesh already has a skin, its position is that of the bind
-  /// pose.
+  /// Read a .gltf or .glb file. A mesh with a skin has the position of its bind pose.
   ///
-  /// Report: counts.meshes (nodes with triangles), counts.vertices, counts.triangles,
-  /// counts.skipped_primitives (points and lines).
-  ///
-  /// Return invalid_input for the defects that read_gltf_skin() names, and if the default scene has
-  /// no triangles.
+  /// Report: see read_gltf_scene(). Return invalid_input for the defects that read_gltf_skin()
+  /// names, and if the default scene has no triangles.
   Status read(const std::string& path);
 
   /// #V x 3, in scene coordinates. The vertices of a mesh occur once for each node with the mesh.
-  const Points& points() const { return this->points_; }
-  const Triangles& triangles() const { return this->triangles_; }
+  const Points& points() const { return this->meshes_.points; }
+  const Triangles& triangles() const { return this->meshes_.triangles; }
+  /// The joints of the skins of the meshes, in scene coordinates. Empty if no mesh has a skin.
+  const std::vector<GltfJoint>& joints() const { return this->meshes_.skin_joints.joints; }
+  /// For each of these joints, its largest weight.
+  const Eigen::RowVectorXd& largest_weights() const { return this->meshes_.largest_weights; }
 
   /// Replace the skins of all nodes with triangles by one skeleton. Call this function once.
   ///
+  /// If all joints are among joints(), with the same names and rest positions, their nodes are
+  /// kept, with their poses and animations. Otherwise, and if a vertex needs the joint "rest" (see
+  /// write_gltf_skin()), new nodes are added.
+  ///
   /// The node-to-scene transform of a node with a mesh does not move a skinned mesh. Therefore it
   /// is included in the inverse bind matrices, and the rest pose does not change. If an animation
-  /// moves such a node, its motion is lost, unless the motion is that of a common parent of all
-  /// nodes with triangles: then the joints are added below this parent. Lost motions are warnings.
+  /// moves such a node, or a joint that is replaced, its motion is lost, unless the motion is that
+  /// of a common parent of all nodes with triangles: then the joints are added below this parent.
+  /// Lost motions are warnings.
   ///
   /// Points and lines of a mesh get the weights of the nearest point of a triangle.
   /// @param skin joints, weights (#V x #joints, see write_gltf_skin()) and frames. Frames become an
@@ -50,48 +57,38 @@ public:
   /// @param maximum_influences maximum number of weights kept per vertex; 0: no limit
   ///
   /// Report: counts.joints, counts.frames, counts.dropped_weights, sets, dropped_share, rest_joint,
-  /// pose_error, animation_error (see write_gltf_skin()), losses[] (one phrase for each lost
-  /// motion).
+  /// pose_error, animation_error (see write_gltf_skin()), kept_joints (yes, no), losses[] (one
+  /// phrase for each lost motion).
   ///
   /// Return invalid_input for sizes that do not match and values that are not finite floats,
   /// canceled after a request, which is checked once per frame.
-  Status set_skin(ExecutionContext& context, const GltfSkin& skin, Index maximum_influences);
+  Status set_skin(ExecutionContext& context, GltfSkin skin, Index maximum_influences);
 
   /// Write the file, as .glb or as .gltf with all data in the same file. Report: file_bytes.
   Status write(const std::string& path, bool binary) const;
 
 private:
-  /// The vertices of a primitive of a node.
-  struct Part
-  {
-    int node;
-    int primitive; ///< index of the primitive in the mesh of the node
-    Index first; ///< first vertex in points_
-    Index count;
-  };
-  struct Reader;
-
   Status check(const GltfSkin& skin, Index maximum_influences) const;
-  Status replace_skins(ExecutionContext& context, const GltfSkin& skin, Index maximum_influences);
+  Status replace_skins(ExecutionContext& context, GltfSkin& skin, Index maximum_influences);
+  /// Return the index into joints() of each joint of a skin. Return nothing if a joint is not among
+  /// them.
+  std::optional<std::vector<Index>> find_joints(const std::vector<GltfJoint>& joints) const;
+  /// Replace the joints of the skin by those of the file, and express the frames by them.
+  GltfJointNodes keep_joints(const std::vector<Index>& ids, GltfSkin& skin) const;
   /// Add the nodes of the joints, below the scene or below an animated parent of all nodes with
   /// triangles.
   GltfJointNodes add_skeleton(const std::vector<GltfJoint>& joints,
-    const std::vector<Trs>& local_transforms, bool rest_joint, Status& status);
+    const std::vector<Trs>& local_transforms, bool rest_joint);
+  /// Return the nearest animated node that moves all meshes, or -1.
+  int common_mover() const;
+  /// Add a warning and an entry of losses[] for each motion that the meshes lose.
+  void report_losses(bool keeps_joints, Status& status) const;
   void attach_skin(
     const std::vector<GltfJoint>& joints, const GltfWeights& packed, const GltfJointNodes& nodes);
 
   std::string path_; ///< the file, for messages
   GltfDocument document_;
-  Points points_;
-  Triangles triangles_;
-  std::vector<Part> parts_;
-  std::vector<Eigen::Affine3d> node_to_scene_;
-  /// Per node: the transform from the mesh to the scene.
-  std::vector<Eigen::Affine3d> mesh_to_scene_;
-  int scene_ = 0; ///< id of the default scene
-  std::vector<int> parents_; ///< per node: id of the parent node, or -1
-  Index joint_animations_ = 0; ///< number of animations that move joints of the meshes' skins
-  std::vector<char> animated_; ///< per node: whether an animation moves the node itself
+  GltfSceneMeshes meshes_;
 };
 
 } // namespace bindpose

@@ -51,7 +51,7 @@ std::vector<Trs> local_maps(const std::vector<GltfJoint>& joints,
   {
     const Index parent = joints[j].parent;
     const Eigen::Affine3d parent_map =
-      parent < 0 ? Eigen::Affine3d::Identity() : stored_maps[parent];
+      (parent < 0 ? Eigen::Affine3d::Identity() : stored_maps[parent]) * joints[j].to_parent_joint;
     Eigen::Affine3d local = parent_map.inverse() * exact_maps[j];
     // If the parent's map is singular, no local transform can correct the joint.
     if (!local.matrix().allFinite())
@@ -134,9 +134,14 @@ int append_skin(GltfDocument& document, const std::vector<GltfJoint>& joints,
       std::back_inserter(inverse_binds), [](double x) { return static_cast<float>(x); });
   }
   const int matrices = document.append_accessor(inverse_binds, 16, 0);
-  return document.append("skins",
-    { { "name", "skin" }, { "skeleton", nodes.root }, { "joints", nodes.joints },
-      { "inverseBindMatrices", matrices } });
+  Json skin{ { "name", "skin" } };
+  if (nodes.root >= 0)
+  {
+    skin["skeleton"] = nodes.root;
+  }
+  skin["joints"] = nodes.joints;
+  skin["inverseBindMatrices"] = matrices;
+  return document.append("skins", std::move(skin));
 }
 
 } // namespace bindpose

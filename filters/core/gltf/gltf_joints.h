@@ -29,7 +29,7 @@ Status check_joints(const std::vector<GltfJoint>& joints);
 /// The nodes of the joints of a skin.
 struct GltfJointNodes
 {
-  int root = -1; ///< the parent of all joints without a parent; it is not a joint
+  int root = -1; ///< the parent of all joints without a parent; it is not a joint. -1: no such node
   std::vector<int> joints; ///< one node per joint; if there is a joint "rest", it is the last one
 };
 

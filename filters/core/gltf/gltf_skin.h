@@ -33,6 +33,9 @@ struct GltfJoint
   /// Joint-to-scene transform in the pose that the file's nodes define. The joint moves the mesh by
   /// the transform posed * rest^-1.
   Eigen::Affine3d posed = Eigen::Affine3d::Identity();
+  /// Transform from the parent of the joint's node to the parent joint, or to the scene. Other
+  /// nodes may be between both.
+  Eigen::Affine3d to_parent_joint = Eigen::Affine3d::Identity();
   std::optional<GltfHandleExtras> handle_extras;
 };
 

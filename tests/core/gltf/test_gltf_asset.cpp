@@ -381,10 +381,161 @@ TEST_F(GltfAssets, ThePoseOfTheJointsAndTheFramesAreWritten)
   {
     for (int j = 0; j < 2; ++j)
     {
-      EXPECT_LT(
-        (read.frames[k].posed[j].matrix() - skin.frames[k].posed[j].matrix()).norm(), 1e-5);
+      EXPECT_LT((read.frames[k].posed[j].matrix() - skin.frames[k].posed[j].matrix()).norm(), 1e-5);
     }
   }
+}
+
+TEST_F(GltfAssets, TheJointsOfTheFileAreKept)
+{
+  this->rig(scene());
+  GltfAsset again;
+  ASSERT_TRUE(again.read(this->folder_ / "out.glb").ok());
+  ASSERT_EQ(again.joints().size(), 2u);
+  EXPECT_EQ(again.joints()[1].parent, 0);
+  for (std::size_t j = 0; j < 2; ++j)
+  {
+    EXPECT_LT((again.joints()[j].rest.matrix() - two_joints()[j].rest.matrix()).norm(), 1e-5);
+    EXPECT_GT(again.largest_weights()[static_cast<Index>(j)], 0.5);
+  }
+  // A handle has another frame than its joint, at the same position.
+  GltfSkin skin = make_skin(again.joints(), 1.0 - weights_of(again.points()).array());
+  skin.joints[1].rest.linear() = Eigen::AngleAxisd(1.0, Vec3::UnitY()).toRotationMatrix();
+  Eigen::Affine3d motion = Eigen::Affine3d::Identity();
+  motion.linear() = Eigen::AngleAxisd(0.4, Vec3::UnitX()).toRotationMatrix();
+  motion.translation() = Vec3(0.1, 0.2, 0.3);
+  skin.frames.resize(2);
+  skin.frames[0].posed = { skin.joints[0].rest, skin.joints[1].rest };
+  skin.frames[1].posed = { skin.joints[0].rest, motion * skin.joints[1].rest };
+  const Status status = again.set_skin(this->context_, skin, 0);
+  ASSERT_TRUE(status.ok()) << status.message;
+  EXPECT_EQ(status.report.text("kept_joints"), "yes");
+  EXPECT_TRUE(status.warnings.empty());
+  EXPECT_LT(status.report.number("animation_error", 1), 1e-6);
+  ASSERT_TRUE(again.write(this->folder_ / "again.glb", true).ok());
+  const File before(this->folder_ / "out.glb"), after(this->folder_ / "again.glb");
+  EXPECT_EQ(after.json["scenes"], before.json["scenes"]);
+  EXPECT_EQ(after.json["nodes"].size(), before.json["nodes"].size());
+  const int tip = 6;
+  EXPECT_EQ(after.json["nodes"][tip], before.json["nodes"][tip]);
+  // The meshes follow the node of the joint by the new weights.
+  const Eigen::Affine3d local = two_joints()[1].rest.inverse() * motion * two_joints()[1].rest;
+  const Points posed = after.skinned(3, 0, tip, local);
+  for (Index v = 0; v < posed.rows(); ++v)
+  {
+    const Vec3 p = again.points().row(16 + v);
+    const Vec3 expected = p + skin.weights(16 + v, 1) * (motion * p - p);
+    EXPECT_LT((posed.row(v).transpose() - expected).norm(), 1e-5);
+  }
+  // The animation has this pose in its second frame.
+  GltfSkin read;
+  ASSERT_TRUE(read_gltf_skin(this->folder_ / "again.glb", read).ok());
+  ASSERT_EQ(read.frames.size(), 2u);
+  EXPECT_LT(
+    (read.frames[1].posed[1].matrix() - (motion * two_joints()[1].rest).matrix()).norm(), 1e-5);
+}
+
+TEST_F(GltfAssets, JointsAtOtherPositionsAreReplaced)
+{
+  GltfDocument document = scene();
+  this->rig(document);
+  GltfAsset again;
+  ASSERT_TRUE(again.read(this->folder_ / "out.glb").ok());
+  GltfSkin skin = make_skin(again.joints(), weights_of(again.points()));
+  skin.joints[1].rest.translation()[2] += 0.1;
+  const Status status = again.set_skin(this->context_, skin, 0);
+  ASSERT_TRUE(status.ok()) << status.message;
+  EXPECT_EQ(status.report.text("kept_joints"), "no");
+}
+
+TEST_F(GltfAssets, JointsBelowOtherNodesAreKept)
+{
+  // The nodes "armature" and "between" are no joints. All of them are rotated or scaled.
+  GltfDocument document;
+  const TriangleMesh cube = test::cube();
+  std::vector<std::uint16_t> corners(
+    cube.triangles.data(), cube.triangles.data() + cube.triangles.size());
+  const int ids = document.append_accessor(
+    std::vector<std::uint8_t>(static_cast<std::size_t>(4 * cube.points.rows()), 0), 4,
+    GltfDocument::array_buffer);
+  std::vector<float> ones;
+  for (Index v = 0; v < cube.points.rows(); ++v)
+  {
+    ones.insert(ones.end(), { 1, 0, 0, 0 });
+  }
+  document.append("meshes",
+    { { "primitives",
+      Json::array({ Json{
+        { "attributes",
+          { { "POSITION", document.append_rows(cube.points) }, { "JOINTS_0", ids },
+            { "WEIGHTS_0", document.append_accessor(ones, 4, GltfDocument::array_buffer) } } },
+        { "indices",
+          document.append_accessor(corners, 1, GltfDocument::element_array_buffer) } } }) } });
+  document.append("nodes", { { "name", "mesh" }, { "mesh", 0 }, { "skin", 0 } });
+  document.append("nodes",
+    { { "name", "armature" }, { "children", { 2 } }, { "scale", { 0.01, 0.01, 0.01 } },
+      { "rotation", { 0, 0.6, 0, 0.8 } } });
+  document.append(
+    "nodes", { { "name", "root" }, { "children", { 3 } }, { "translation", { 50, 0, 0 } } });
+  document.append(
+    "nodes", { { "name", "between" }, { "children", { 4 } }, { "rotation", { 0, 0, 0.6, 0.8 } } });
+  document.append("nodes", { { "name", "tip" }, { "translation", { 0, 80, 0 } } });
+  document.append("scenes", { { "nodes", { 0, 1 } } });
+  const std::vector<int> joint_nodes{ 2, 4 };
+  const GltfDocument::Json json = document.json();
+  // The inverse bind matrices put the mesh into the bind pose, three times as large.
+  Eigen::Affine3d armature = Eigen::Affine3d::Identity();
+  armature.rotate(Eigen::Quaterniond(0.8, 0, 0.6, 0)).scale(0.01);
+  const Eigen::Affine3d root = armature * Eigen::Translation3d(50, 0, 0);
+  const Eigen::Affine3d tip =
+    root * Eigen::Quaterniond(0.8, 0, 0, 0.6) * Eigen::Translation3d(0, 80, 0);
+  Eigen::Affine3d size = Eigen::Affine3d::Identity();
+  size.scale(3.0);
+  std::vector<float> binds;
+  for (const Eigen::Affine3d& joint : { root, tip })
+  {
+    const Eigen::Matrix4d bind = (joint.inverse() * size).matrix();
+    binds.insert(binds.end(), bind.data(), bind.data() + 16);
+  }
+  document.append("skins",
+    { { "joints", joint_nodes },
+      { "inverseBindMatrices", document.append_accessor(binds, 16, 0) } });
+  document.json()["scene"] = 0;
+  animate(document, 4);
+  Status status = this->asset_.read(this->write(document));
+  ASSERT_TRUE(status.ok()) << status.message;
+  EXPECT_TRUE(status.warnings.empty());
+  EXPECT_LT((this->asset_.points() - 3.0 * cube.points).cwiseAbs().maxCoeff(), 1e-5);
+  EXPECT_LT((this->asset_.joints()[1].rest.matrix() - tip.matrix()).norm(), 1e-5);
+  GltfSkin skin = make_skin(this->asset_.joints(), weights_of(this->asset_.points()));
+  skin.frames.resize(2);
+  Eigen::Affine3d motion = Eigen::Affine3d::Identity();
+  motion.rotate(Eigen::AngleAxisd(0.5, Vec3(1, 1, 0).normalized())).translate(Vec3(0.2, 0, 0));
+  skin.frames[0].posed = { root, tip };
+  skin.frames[1].posed = { motion * root, motion * motion * tip };
+  status = this->asset_.set_skin(this->context_, skin, 0);
+  ASSERT_TRUE(status.ok()) << status.message;
+  EXPECT_EQ(status.report.text("kept_joints"), "yes");
+  EXPECT_LT(status.report.number("pose_error", 1), 1e-6);
+  EXPECT_LT(status.report.number("animation_error", 1), 1e-6);
+  ASSERT_TRUE(this->asset_.write(this->folder_ / "out.glb", true).ok());
+  const File file(this->folder_ / "out.glb");
+  EXPECT_EQ(file.json["nodes"].size(), json["nodes"].size());
+  EXPECT_EQ(file.json["animations"].size(), 2u);
+  EXPECT_LT((file.skinned(0, 0, -1, motion) - this->asset_.points()).cwiseAbs().maxCoeff(), 1e-5);
+  // The new animation is evaluated by the reader, without the old one.
+  GltfDocument only = document;
+  only.json().erase("animations");
+  GltfAsset fresh;
+  ASSERT_TRUE(fresh.read(this->write(only)).ok());
+  skin.joints = fresh.joints();
+  ASSERT_TRUE(fresh.set_skin(this->context_, skin, 0).ok());
+  ASSERT_TRUE(fresh.write(this->folder_ / "fresh.glb", true).ok());
+  GltfSkin read;
+  ASSERT_TRUE(read_gltf_skin(this->folder_ / "fresh.glb", read).ok());
+  ASSERT_EQ(read.frames.size(), 2u);
+  EXPECT_LT((read.frames[1].posed[0].matrix() - (motion * root).matrix()).norm(), 1e-5);
+  EXPECT_LT((read.frames[1].posed[1].matrix() - (motion * motion * tip).matrix()).norm(), 1e-5);
 }
 
 TEST_F(GltfAssets, ACancelWhileFramesAreAddedIsReported)
@@ -407,7 +558,8 @@ TEST_F(GltfAssets, AnOldSkinIsReplaced)
   EXPECT_LT((again.points() - this->asset_.points()).cwiseAbs().maxCoeff(), 1e-5);
   std::vector<GltfJoint> one(1);
   one[0].name = "only";
-  status = again.set_skin(this->context_, make_skin(one, Weights::Ones(again.points().rows(), 1)), 0);
+  status =
+    again.set_skin(this->context_, make_skin(one, Weights::Ones(again.points().rows(), 1)), 0);
   ASSERT_TRUE(status.ok()) << status.message;
   ASSERT_TRUE(again.write(this->folder_ / "again.glb", true).ok());
   const File file(this->folder_ / "again.glb");
@@ -515,7 +667,7 @@ TEST_F(GltfAssets, WrongInputIsNamed)
     "the weights have 3 rows and 2 columns; expected 24 rows and 2 columns, at least one");
   std::vector<GltfJoint> cyclic = two_joints();
   cyclic[0].parent = 1;
-  status = this->asset_.set_skin(
-    this->context_, make_skin(cyclic, weights_of(this->asset_.points())), 0);
+  status =
+    this->asset_.set_skin(this->context_, make_skin(cyclic, weights_of(this->asset_.points())), 0);
   EXPECT_THAT(status.message, HasSubstr("cycle"));
 }

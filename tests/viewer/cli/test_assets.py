@@ -97,6 +97,20 @@ def test_a_character_keeps_everything_but_its_skin(character):
     assert len({tuple(after.json["skins"][skin]["joints"]) for skin in skins}) == 1  # one skeleton
 
 
+def test_a_character_gets_new_weights_for_its_own_joints(character):
+    run = character.run("rig", "c.gltf", "-o", "out.glb", "--handles", "c.gltf", "--report", "-").is_good()
+    report = run.report["gltf"]
+    assert report["kept_joints"] == "yes" and "losses" not in report and report["pose_error"] < 1e-5
+    before, after = GltfFile(character / "c.gltf"), GltfFile(character / "out.glb")
+    old, new = before.without_skins(), after.without_skins()
+    old.pop("images"), new.pop("images")
+    assert new == old
+    joints = {joint for skin in after.json["skins"] for joint in skin["joints"]}
+    assert joints <= set(before.json["skins"][0]["joints"])
+    for mesh in range(len(after.json["meshes"])):
+        assert after.weights(mesh).sum(axis=1) == pytest.approx(np.ones(len(after.attribute(mesh, "POSITION"))))
+
+
 def test_poses_become_an_animation(folder):
     write_statue(folder)
     folder.write("h.tgf", "1 0.5 0.5 0.5\n2 3 0.5 0.5\n#\n1 2 1 0 0\n")
@@ -123,6 +137,7 @@ def test_refusals(folder):
     folder.run("rig", "cube.off", "-o", "out.glb").is_refused("cube.off", "glb")
     folder.run("rig", "statue.gltf", "-o", "out.vtp").is_refused("out.vtp", "glb")
     folder.run("rig", "statue.gltf", "--handles", "bones", "-o", "out.glb").is_refused("--handles 'bones'")
+    folder.run("rig", "statue.gltf", "--handles", "statue.gltf", "-o", "out.glb").is_refused("statue.gltf has no joints")
     folder.run("rig", "statue.gltf", "--influences", "-1", "-o", "out.glb").is_refused("--influences", code=1)
     folder.run("rig", "statue.gltf", "--keep-raw", "-o", "out.glb").is_refused("--keep-raw", code=1)
     folder.run("rig", "statue.gltf", "--pose", "none.json", "-o", "out.glb").is_refused("none.json")

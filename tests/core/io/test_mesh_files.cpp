@@ -235,6 +235,40 @@ TEST_F(TextFiles, ObjCornersIdsAndErrors)
   EXPECT_THAT(read("v 0 0 0\n"), HasSubstr("0 faces"));
 }
 
+TEST_F(TextFiles, ObjLooksOfFaces)
+{
+  const std::string path = this->folder.write("m.obj",
+    "mtllib my colors.mtl\nv 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 0 0 1\nv 0 1 0 1 1 1\n"
+    "vt 0 0.25\nvt 1\nvn 0 0 1\n"
+    "f 1/1/1 2/2/1 3/-1/-1\n"
+    "o box\nusemtl dark red\nf 1//1 3/1 4\n"
+    "g lid\nf 1/7/1 2/0 3/x\n" // texture coordinates that do not exist
+    "o ball\ng\nusemtl blue\nf 1/3 2/3 3/3\nvt 0.5 0.5\nf 1 2\n"
+    "o box\ng lid\nusemtl dark red\nf 2/3/1 3/3/1 4/3/1\n");
+  ObjLook look;
+  const Status status = read_obj(path, this->mesh, look);
+  ASSERT_TRUE(status.ok()) << status.message;
+  EXPECT_EQ(this->mesh.polygon_count(), 5);
+  EXPECT_EQ(this->mesh.skipped, 1);
+  EXPECT_EQ(look.libraries, std::vector<std::string>{ "my colors.mtl" });
+  EXPECT_EQ(look.material_names, (std::vector<std::string>{ "dark red", "blue" }));
+  EXPECT_EQ(look.part_names, (std::vector<std::string>{ "", "box", "box lid", "ball" }));
+  EXPECT_EQ(look.materials, (std::vector<Index>{ -1, 0, 0, 1, 0 }));
+  EXPECT_EQ(look.parts, (std::vector<Index>{ 0, 1, 2, 3, 2 }));
+  EXPECT_EQ(
+    look.texture_ids, (std::vector<Index>{ 0, 1, 1, -1, 0, -1, -1, -1, -1, 2, 2, 2, 2, 2, 2 }));
+  EXPECT_EQ(
+    look.normal_ids, (std::vector<Index>{ 0, 0, 0, 0, -1, -1, 0, -1, -1, -1, -1, -1, 0, 0, 0 }));
+  EXPECT_EQ(look.texture, (decltype(look.texture)(3, 2) << 0, 0.25, 1, 0, 0.5, 0.5).finished());
+  EXPECT_EQ(look.normals, (Points(1, 3) << 0, 0, 1).finished());
+  EXPECT_EQ(look.colors.row(3), Eigen::RowVector3d(1, 1, 1));
+  ASSERT_EQ(status.warnings.size(), 1u);
+  EXPECT_THAT(status.warnings[0], HasSubstr("3 corners of faces reference"));
+  EXPECT_THAT(
+    read_obj(this->folder.write("n.obj", "v 0 0 0\nvn 0 x 1\n"), this->mesh, look).message,
+    HasSubstr("line 2"));
+}
+
 TEST_F(TextFiles, PlyAsciiAndBigEndian)
 {
   ASSERT_EQ(read_ply(this->folder.write("a.ply",

@@ -21,6 +21,7 @@ libboost-dev:Boost.Graph,_graph_cut_between_inside_and_outside
 nlohmann-json3-dev:reports_and_poses_as_JSON
 libmuparser-dev:expressions_in_pose_files
 libtinygltf-dev:reads_and_writes_rigs_as_glTF_files
+libtinyobjloader-dev:reads_materials_of_OBJ_files
 "
 build_packages="$kernel_packages
 libvtk9-dev:VTK,_data_processing_and_rendering

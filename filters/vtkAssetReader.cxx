@@ -1,9 +1,10 @@
-// Connects the kernel of gltf/gltf_asset.h to VTK; gltf_data.h converts joints to handles.
+// Connects the kernel of gltf/gltf_asset.h to VTK. asset_file.h reads the file; gltf_data.h
+// converts joints to handles.
 #include "vtkAssetReader.h"
 
+#include "asset_file.h"
 #include "base/execution.h"
 #include "conversion.h"
-#include "file_kind.h"
 #include "gltf/gltf_asset.h"
 #include "gltf_data.h"
 
@@ -15,6 +16,11 @@
 using namespace bindpose;
 
 vtkStandardNewMacro(vtkAssetReader);
+
+const char* vtkAssetReader::GetFileExtensions()
+{
+  return asset_extensions();
+}
 
 vtkAssetReader::vtkAssetReader()
 {
@@ -38,12 +44,8 @@ Status vtkAssetReader::Execute(
 {
   const Phase phase(context, "read");
   const std::string path = this->FileName ? this->FileName : "";
-  Status status = check_extension(path, GetFileExtensions());
   GltfAsset asset;
-  if (status.ok())
-  {
-    status = asset.read(path);
-  }
+  Status status = read_asset_file(path, asset);
   if (!status.ok())
   {
     return status;

@@ -1,9 +1,13 @@
 /**
  * @class   vtkAssetReader
- * @brief   reads the triangles of all meshes of a glTF 2.0 file, for a new rig of the whole file
+ * @brief   reads the triangles of all meshes of a glTF or OBJ file, for a new rig of the whole file
  *
  * Weights for the points of this mesh can be written into a copy of the file by vtkGLTFSkinWriter
- * (AssetFileName). The copy keeps materials, textures, cameras, animations and everything else.
+ * (AssetFileName). The copy keeps materials, textures, cameras, animations and everything else. The
+ * copy of an OBJ file is a glTF file with its texture coordinates, normals, groups (one mesh each),
+ * vertex colors, and the materials and PNG or JPEG pictures of its .mtl files. Materials and
+ * pictures that cannot be read are left out, with a warning; those outside of the folder are
+ * refused.
  *
  * **Output 0**: the triangles of the default scene (vtkPolyData), in scene coordinates. The
  * vertices of a mesh occur once for each node with the mesh. If a mesh has a skin, its points have
@@ -35,13 +39,13 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /// Path of the file: .glb or .gltf. Default: none.
+  /// Path of the file: .glb, .gltf or .obj. Default: none.
   vtkSetFilePathMacro(FileName);
   vtkGetFilePathMacro(FileName);
   ///@}
 
   /// File name extensions that can be read, in lower case, without dots, separated by blanks.
-  static const char* GetFileExtensions() { return "glb gltf"; }
+  static const char* GetFileExtensions();
 
 protected:
   vtkAssetReader();

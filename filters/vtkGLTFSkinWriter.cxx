@@ -3,6 +3,7 @@
 // points and joints.
 #include "vtkGLTFSkinWriter.h"
 
+#include "asset_file.h"
 #include "base/execution.h"
 #include "file_kind.h"
 #include "gltf/gltf_asset.h"
@@ -277,12 +278,12 @@ Status check_asset_points(const std::string& path, const GltfAsset& asset, const
                      cause + "; read the asset by vtkAssetReader");
 }
 
-/// Write a copy of the glTF file `asset_path` whose meshes have the skin.
+/// Write a copy of the file `asset_path` whose meshes have the skin.
 Status write_asset(ExecutionContext& context, const std::string& path,
   const std::string& asset_path, const GltfSkin& skin, const GltfOptions& options)
 {
   GltfAsset asset;
-  Status status = asset.read(asset_path);
+  Status status = read_asset_file(asset_path, asset);
   const Status checked = status.ok() ? check_asset_points(asset_path, asset, skin.points) : status;
   if (!checked.ok())
   {

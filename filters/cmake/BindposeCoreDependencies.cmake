@@ -1,5 +1,5 @@
 # Options and dependencies of the kernels. Required: Eigen, TBB, nlohmann-json, muParser, Spectra, the
-# header of tinygltf, the headers of Boost. Large packages are optional. If a package is missing, the feature
+# headers of tinygltf, tinyobjloader and Boost. Large packages are optional. If a package is missing, the feature
 # that needs it reports the name of the package.
 option(BINDPOSE_PERMISSIVE "Leave out GPL and AGPL parts (bindpose-mesher, CHOLMOD)" OFF)
 option(BINDPOSE_WITH_CHOLMOD "Factor with CHOLMOD's supernodal solver when found" ON)
@@ -17,6 +17,12 @@ find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h)
 mark_as_advanced(TINYGLTF_INCLUDE_DIR)
 if(NOT TINYGLTF_INCLUDE_DIR)
   message(FATAL_ERROR "tiny_gltf.h is missing; on Debian: apt-get install libtinygltf-dev")
+endif()
+# The header of tinyobjloader reads materials of OBJ files.
+find_path(TINYOBJLOADER_INCLUDE_DIR tiny_obj_loader.h)
+mark_as_advanced(TINYOBJLOADER_INCLUDE_DIR)
+if(NOT TINYOBJLOADER_INCLUDE_DIR)
+  message(FATAL_ERROR "tiny_obj_loader.h is missing; on Debian: apt-get install libtinyobjloader-dev")
 endif()
 
 # ---- CHOLMOD (its supernodal module is GPL) ----

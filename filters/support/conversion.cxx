@@ -6,6 +6,7 @@
 #include "base/number_text.h"
 #include "cell_check.h"
 #include "geometry/working_frame.h"
+#include "polygon_triangles.h"
 
 #include "vtkCell.h"
 #include "vtkCellArray.h"
@@ -22,7 +23,6 @@
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkPolygon.h"
 #include "vtkStringArray.h"
 #include "vtkTypeInt64Array.h"
 #include "vtkUnsignedCharArray.h"
@@ -56,40 +56,6 @@ bool share_connectivity(vtkCellArray* cells, SharedMatrix<Matrix>& matrix)
   return true;
 }
 
-/// Triangulate a polygon: triangles and quads become fans, larger polygons are triangulated by ear
-/// cutting. If ear cutting fails for a degenerate polygon, the polygon becomes a fan. The fan has
-/// the boundary edges of the polygon, so closed surfaces stay closed.
-void triangulate_polygon(vtkIdType count, const vtkIdType* ids, vtkPoints* points,
-  std::vector<std::array<Index, 3>>& triangles)
-{
-  if (count > 4)
-  {
-    vtkNew<vtkPolygon> polygon;
-    polygon->GetPointIds()->SetNumberOfIds(count);
-    polygon->GetPoints()->SetDataTypeToDouble();
-    polygon->GetPoints()->SetNumberOfPoints(count);
-    for (vtkIdType k = 0; k < count; ++k)
-    {
-      polygon->GetPointIds()->SetId(k, k);
-      polygon->GetPoints()->SetPoint(k, points->GetPoint(ids[k]));
-    }
-    vtkNew<vtkIdList> triangle_ids;
-    if (polygon->Triangulate(triangle_ids) && triangle_ids->GetNumberOfIds() == 3 * (count - 2))
-    {
-      for (vtkIdType t = 0; t + 2 < triangle_ids->GetNumberOfIds(); t += 3)
-      {
-        triangles.push_back({ ids[triangle_ids->GetId(t)], ids[triangle_ids->GetId(t + 1)],
-          ids[triangle_ids->GetId(t + 2)] });
-      }
-      return;
-    }
-  }
-  for (vtkIdType k = 1; k + 1 < count; ++k)
-  {
-    triangles.push_back({ ids[0], ids[k], ids[k + 1] });
-  }
-}
-
 bool ids_in_range(vtkIdType count, const vtkIdType* ids, vtkIdType number_of_points)
 {
   for (vtkIdType k = 0; k < count; ++k)
@@ -105,7 +71,8 @@ bool ids_in_range(vtkIdType count, const vtkIdType* ids, vtkIdType number_of_poi
 Status split_cells(vtkPointSet* data, SurfaceInput& surface)
 {
   vtkNew<vtkIdList> cell_points;
-  std::vector<std::array<Index, 3>> triangles;
+  std::vector<std::array<Index, 3>> triangles, corners;
+  std::vector<Vec3> polygon;
   const vtkIdType cells = data->GetNumberOfCells();
   vtkPoints* points = data->GetPoints();
   const vtkIdType number_of_points = data->GetNumberOfPoints();
@@ -142,7 +109,16 @@ Status split_cells(vtkPointSet* data, SurfaceInput& surface)
       {
         std::swap(ids[2], ids[3]);
       }
-      triangulate_polygon(count, ids.data(), points, triangles);
+      polygon.clear();
+      for (const vtkIdType id : ids)
+      {
+        polygon.emplace_back(points->GetPoint(id));
+      }
+      triangulate_polygon(polygon, corners);
+      for (const std::array<Index, 3>& t : corners)
+      {
+        triangles.push_back({ ids[t[0]], ids[t[1]], ids[t[2]] });
+      }
     }
     surface.triangulated_cells += count != 3;
     surface.cell_of_triangle.resize(triangles.size(), cell);

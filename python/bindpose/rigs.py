@@ -594,7 +594,7 @@ def write_rig(mesh: Mesh, handles: Handles, path: Path, *, frames: Sequence[vtkD
     maximum_influences : int
         Maximum number of weights per vertex that are written; the largest weights are kept. 0: all.
     asset : str or path-like, optional
-        glTF file from which `mesh` was read by `read_asset`: a copy of it gets the skin and keeps everything else.
+        File from which `mesh` was read by `read_asset`: a copy of it gets the skin and keeps everything else.
         Default: the file contains only the mesh.
     overwrite : bool
         Replace an existing file.

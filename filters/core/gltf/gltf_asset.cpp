@@ -76,7 +76,12 @@ void remove_unused_skins(GltfDocument& document)
   {
     if (node.contains("skin"))
     {
-      new_id.at(node["skin"].get<std::size_t>()) = 0;
+      const auto id = node["skin"].get<std::size_t>();
+      if (id >= skins.size())
+      {
+        throw GltfError("skin " + std::to_string(id) + " does not exist");
+      }
+      new_id[id] = 0;
     }
   }
   Json kept = Json::array();
@@ -101,8 +106,20 @@ void remove_unused_skins(GltfDocument& document)
 
 Status GltfAsset::read(const std::string& path)
 {
+  std::string bytes;
+  const Status status = read_file(path, bytes);
+  if (!status.ok())
+  {
+    *this = GltfAsset();
+    return status;
+  }
+  return this->read_bytes(path, std::move(bytes));
+}
+
+Status GltfAsset::read_bytes(const std::string& path, std::string bytes)
+{
   *this = GltfAsset();
-  const Status status = read_gltf_file(path,
+  const Status status = read_gltf_bytes(path, std::move(bytes),
     [this](const GltfContent& content, Status& found)
     {
       this->document_ =
@@ -242,18 +259,17 @@ GltfJointNodes GltfAsset::add_skeleton(
   const std::vector<GltfJoint>& joints, const std::vector<Trs>& local_transforms, bool rest_joint)
 {
   const GltfJointNodes nodes = append_joints(this->document_, joints, local_transforms, rest_joint);
-  Json& json_nodes = this->document_.list("nodes");
   const int parent = this->common_mover();
   if (parent >= 0)
   {
+    Json& json_nodes = this->document_.list("nodes");
     const Eigen::Matrix4d inverse = this->meshes_.node_to_scene[parent].inverse().matrix();
     json_nodes[nodes.root]["matrix"] =
       std::vector<double>(inverse.data(), inverse.data() + inverse.size());
     json_nodes[parent]["children"].push_back(nodes.root);
     return nodes;
   }
-  Json& scenes = this->document_.list("scenes");
-  if (scenes.empty())
+  if (this->document_.list("scenes").empty())
   {
     Json roots = Json::array();
     for (std::size_t id = 0; id < this->meshes_.parents.size(); ++id)
@@ -263,10 +279,9 @@ GltfJointNodes GltfAsset::add_skeleton(
         roots.push_back(id);
       }
     }
-    this->document_.json()["scene"] = 0;
-    scenes.push_back({ { "nodes", std::move(roots) } });
+    this->document_.json()["scene"] = this->document_.append("scenes", { { "nodes", roots } });
   }
-  scenes[this->meshes_.scene]["nodes"].push_back(nodes.root);
+  this->document_.list("scenes")[this->meshes_.scene]["nodes"].push_back(nodes.root);
   return nodes;
 }
 
@@ -301,6 +316,10 @@ Status GltfAsset::set_skin(ExecutionContext& context, GltfSkin skin, Index maxim
   try
   {
     return this->replace_skins(context, skin, maximum_influences);
+  }
+  catch (const GltfError& failure)
+  {
+    return Status::invalid_input(this->path_ + ": " + failure.sentence);
   }
   catch (const Json::exception& error) // a value of the file has a wrong type
   {
@@ -368,7 +387,6 @@ void GltfAsset::attach_skin(
   int last_node = -1;
   for (const GltfPart& part : this->meshes_.parts)
   {
-    Json& node = this->document_.list("nodes")[part.node];
     if (part.node != last_node)
     {
       last_node = part.node;
@@ -379,13 +397,15 @@ void GltfAsset::attach_skin(
         skin->second =
           append_skin(this->document_, joints, nodes, this->meshes_.mesh_to_scene[part.node]);
       }
+      Json& node = this->document_.list("nodes")[part.node];
       node["skin"] = skin->second;
       const int mesh = node["mesh"].get<int>();
       if (!edited_meshes.insert(mesh).second)
       {
         // A second node has this mesh. Its vertices have other weights, so it needs its own mesh,
         // whose weights are replaced below.
-        node["mesh"] = this->document_.append("meshes", Json(this->document_.list("meshes")[mesh]));
+        const Json copy = this->document_.list("meshes")[mesh];
+        node["mesh"] = this->document_.append("meshes", copy);
       }
     }
     const auto [stored, is_new] = attributes_of_vertices.insert({ part.first, Json::object() });
@@ -393,8 +413,9 @@ void GltfAsset::attach_skin(
     {
       append_weights(this->document_, packed, part.first, part.first + part.count, stored->second);
     }
-    Json& attributes = this->document_.list(
-      "meshes")[node["mesh"].get<std::size_t>()]["primitives"][part.primitive]["attributes"];
+    const auto mesh = this->document_.list("nodes")[part.node]["mesh"].get<std::size_t>();
+    Json& attributes =
+      this->document_.list("meshes")[mesh]["primitives"][part.primitive]["attributes"];
     erase_weights(attributes);
     attributes.update(stored->second);
   }

@@ -29,6 +29,8 @@ public:
   /// Report: see read_gltf_scene(). Return invalid_input for the defects that read_gltf_skin()
   /// names, and if the default scene has no triangles.
   Status read(const std::string& path);
+  /// Read the bytes of a glTF file that was made from the file `path`.
+  Status read_bytes(const std::string& path, std::string bytes);
 
   /// #V x 3, in scene coordinates. The vertices of a mesh occur once for each node with the mesh.
   const Points& points() const { return this->meshes_.points; }

@@ -223,13 +223,14 @@ void GltfDocument::embed_images(const std::string& folder, std::vector<std::stri
   {
     return;
   }
-  for (Json& image : this->json_["images"])
+  for (std::size_t k = 0; k < this->json_["images"].size(); ++k)
   {
-    if (!image.is_object() || !image.contains("uri") || !image["uri"].is_string())
+    const Json& old = this->json_["images"][k];
+    if (!old.is_object() || !old.contains("uri") || !old["uri"].is_string())
     {
       continue;
     }
-    const auto uri = image["uri"].get<std::string>();
+    const auto uri = old["uri"].get<std::string>();
     if (uri.compare(0, 5, "data:") == 0)
     {
       continue;
@@ -250,8 +251,10 @@ void GltfDocument::embed_images(const std::string& folder, std::vector<std::stri
         (status.ok() ? "its format is unknown" : status.message));
       continue;
     }
+    const int view = this->append_view(bytes.data(), bytes.size(), 0);
+    Json& image = this->json_["images"][k];
     image.erase("uri");
-    image["bufferView"] = this->append_view(bytes.data(), bytes.size(), 0);
+    image["bufferView"] = view;
     image["mimeType"] = type;
   }
 }
@@ -299,7 +302,18 @@ int GltfDocument::append_accessor(
       { "type", type_name(components) } });
 }
 
-Status GltfDocument::write(const std::string& path, bool binary) const
+int GltfDocument::append_image(const std::string& bytes)
+{
+  const std::string type = picture_type(bytes);
+  if (type != "image/png" && type != "image/jpeg")
+  {
+    return -1;
+  }
+  const int view = this->append_view(bytes.data(), bytes.size(), 0);
+  return this->append("images", { { "bufferView", view }, { "mimeType", type } });
+}
+
+Status GltfDocument::to_bytes(bool binary, std::string& content) const
 {
   Json json = this->json_;
   if (!this->buffer_.empty())
@@ -321,15 +335,14 @@ Status GltfDocument::write(const std::string& path, bool binary) const
   {
     return Status::invalid_input("a name is not valid UTF-8");
   }
-  std::string content;
   if (binary)
   {
     const std::size_t size = header_size + 2 * chunk_header_size + text.size() +
       this->buffer_.size() + this->further_chunks_.size();
     if (size > largest_file)
     {
-      return Status::invalid_input("a .glb file can have at most 4 GB, but " + path +
-        " would have " + std::to_string(size) + " bytes");
+      return Status::invalid_input("a .glb file can have at most 4 GB, but this file would have " +
+        std::to_string(size) + " bytes");
     }
     content = "glTF";
     append_word(content, 2);
@@ -347,8 +360,18 @@ Status GltfDocument::write(const std::string& path, bool binary) const
   {
     content = std::move(text);
   }
-  Status status = write_file(path, content);
-  status.report.set("file_bytes", content.size());
+  return {};
+}
+
+Status GltfDocument::write(const std::string& path, bool binary) const
+{
+  std::string content;
+  Status status = this->to_bytes(binary, content);
+  if (status.ok())
+  {
+    status = write_file(path, content);
+    status.report.set("file_bytes", content.size());
+  }
   return status;
 }
 

@@ -36,6 +36,7 @@ public:
   GltfDocument(const std::string& content, const tinygltf::Model& model, const std::string& folder,
     std::vector<std::string>& warnings);
 
+  /// References to values are not valid after a change that adds a list to the document.
   Json& json() { return this->json_; }
   const Json& json() const { return this->json_; }
   /// Return a list of the document, such as "nodes". Create it if it is missing.
@@ -64,6 +65,12 @@ public:
   /// Append a buffer view for `bytes`, and return its id.
   int append_view(const void* bytes, std::size_t size, int target);
 
+  /// Append a picture and return the id of the image, or -1 if the bytes are neither PNG nor JPEG.
+  int append_image(const std::string& bytes);
+
+  /// Set `content` to the bytes of the document as .glb, or as .gltf with the buffer as base64.
+  /// Return invalid_input if the file has more than 4 GB, or if a text is not UTF-8.
+  Status to_bytes(bool binary, std::string& content) const;
   /// Write the document as .glb, or as .gltf with the buffer as base64 in the same file. Return
   /// invalid_input if the file cannot be written, has more than 4 GB, or if a text is not UTF-8.
   /// Report: file_bytes.

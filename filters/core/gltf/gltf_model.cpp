@@ -210,14 +210,19 @@ tinygltf::Model parse_gltf(const std::string& content, GltfBufferFiles& files)
 Status read_gltf_file(
   const std::string& path, const std::function<void(const GltfContent&, Status&)>& use)
 {
-  GltfContent content;
-  Status status = read_file(path, content.bytes);
-  if (!status.ok())
-  {
-    return status;
-  }
+  std::string bytes;
+  const Status status = read_file(path, bytes);
+  return status.ok() ? read_gltf_bytes(path, std::move(bytes), use) : status;
+}
+
+Status read_gltf_bytes(const std::string& path, std::string bytes,
+  const std::function<void(const GltfContent&, Status&)>& use)
+{
+  Status status;
   try
   {
+    GltfContent content;
+    content.bytes = std::move(bytes);
     const std::string folder = std::filesystem::path(path).parent_path().string();
     content.files.folder = folder.empty() ? "." : folder;
     content.model = parse_gltf(content.bytes, content.files);

@@ -60,6 +60,11 @@ struct GltfContent
 Status read_gltf_file(
   const std::string& path, const std::function<void(const GltfContent&, Status&)>& use);
 
+/// Parse the bytes of a file, which may be made from a file of another format, and call
+/// use(content, status). See read_gltf_file().
+Status read_gltf_bytes(const std::string& path, std::string bytes,
+  const std::function<void(const GltfContent&, Status&)>& use);
+
 /// Return an element of a list. Throw GltfError if there is no such element.
 template <typename Element>
 const Element& gltf_element(const std::vector<Element>& list, int id, const char* item_name)

@@ -125,6 +125,60 @@ def test_poses_become_an_animation(folder):
     assert "3 frames, 8 per second" in info
 
 
+def write_obj(folder):
+    """Write a bar of quads as an OBJ file with two groups, a texture, and a material file."""
+    lines = ["mtllib bar.mtl"]
+    vertices, faces = shapes.bar()
+    lines += [f"v {x} {y} {z}" for x, y, z in vertices]
+    lines += [f"vt {x / 6} {y}" for x, y, _ in vertices]
+    for group, material, sign in (("left", "wood", 1), ("right", "steel", -1)):
+        lines += [f"g {group}", f"usemtl {material}"]
+        for a, b in zip(faces[::2], faces[1::2]):  # two triangles of a square
+            if sign * (sum(vertices[v][0] for v in a) - 9) < 0 or (sign < 0 and sum(vertices[v][0] for v in a) == 9):
+                lines.append("f " + " ".join(f"{v + 1}/{v + 1}" for v in (*a, b[2])))
+    folder.write("bar.obj", "\n".join(lines) + "\n")
+    folder.write("bar.mtl", "newmtl wood\nKd 0.5 0.25 1\nmap_Kd wood.png\nnewmtl steel\nKd 0.5 0.5 0.5\nPm 1\n")
+    picture = shapes.png(4, 4, lambda x, y: (50 * x, 50 * y, 0, 255))
+    folder.write("wood.png", picture)
+    return picture
+
+
+def test_an_obj_file_keeps_its_look(folder):
+    picture = write_obj(folder)
+    run = folder.run("rig", "bar.obj", "-o", "bar.glb").is_good()
+    assert "warning" not in run.err
+    file = GltfFile(folder / "bar.glb")
+    assert [mesh["name"] for mesh in file.json["meshes"]] == ["left", "right"]
+    assert [material["name"] for material in file.json["materials"]] == ["wood", "steel"]
+    assert file.view(file.json["images"][0]["bufferView"]) == picture
+    assert file.json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] == [0.5, 0.25, 1, 1]
+    triangles = 0
+    for mesh in (0, 1):
+        points, texture = file.attribute(mesh, "POSITION"), file.attribute(mesh, "TEXCOORD_0")
+        assert texture == pytest.approx(np.stack([points[:, 0] / 6, 1 - points[:, 1]], axis=1), abs=1e-6)
+        primitive = file.json["meshes"][mesh]["primitives"][0]
+        assert primitive["material"] == mesh
+        triangles += len(file.numbers(primitive["indices"])) // 3
+        assert file.weights(mesh).sum(axis=1) == pytest.approx(np.ones(len(points)), abs=1e-6)
+    assert triangles == len(shapes.bar()[1])
+
+
+def test_obj_files_with_missing_materials(folder):
+    write_obj(folder)
+    (folder / "wood.png").unlink()
+    run = folder.run("rig", "bar.obj", "--handles", "auto:2", "-o", "bar.glb").is_good()
+    assert "the picture 'wood.png' is left out" in run.err
+    (folder / "bar.mtl").unlink()
+    run = folder.run("rig", "bar.obj", "--handles", "auto:2", "-o", "gray.glb").is_good()
+    assert "the materials of 'bar.mtl' are left out" in run.err
+    assert "materials" not in GltfFile(folder / "gray.glb").json
+    folder.write("out.obj", (folder / "bar.obj").read_text().replace("bar.mtl", "../secret.mtl"))
+    secret = folder.path.parent / "secret.mtl"
+    secret.write_text("newmtl wood")
+    folder.run("rig", "out.obj", "--handles", "auto:2", "-o", "o.glb").is_refused("'../secret.mtl' is not in the folder")
+    secret.unlink()
+
+
 def test_the_weights_of_the_surface(folder):
     write_statue(folder)
     folder.run("rig", "statue.gltf", "--handles", "auto:3", "--domain", "surface", "-o", "out.glb").is_good()

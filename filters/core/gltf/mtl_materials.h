@@ -1,0 +1,32 @@
+#ifndef bindpose_gltf_mtl_materials_h
+#define bindpose_gltf_mtl_materials_h
+
+// Materials of OBJ files in a glTF document.
+
+#include "gltf/gltf_document.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace bindpose
+{
+
+/// Append the materials of an MTL file, with their pictures, to a document. Colors and the
+/// opacity become the base color; Pm, Pr (or the specular exponent), Ke, norm (or map_Bump) and the
+/// pictures map_Kd, map_Ke become the properties of glTF with the same meaning. OBJ files do not
+/// distinguish the sides of a face, so materials are double-sided. A picture is searched at its
+/// path in the folder, then by its file name alone; if it is missing or neither PNG nor JPEG, it is
+/// left out with a warning.
+/// @param text content of the MTL file
+/// @param folder folder of the MTL file
+/// @param names names of the materials to append
+/// @param ids ids of the materials in the document, by name; those that it contains are not
+/// appended Throw GltfError for a picture outside of the folder.
+void append_mtl_materials(const std::string& text, const std::string& folder,
+  const std::vector<std::string>& names, GltfDocument& document, std::map<std::string, int>& ids,
+  std::vector<std::string>& warnings);
+
+} // namespace bindpose
+
+#endif

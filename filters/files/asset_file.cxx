@@ -1,0 +1,136 @@
+#include "asset_file.h"
+
+#include "file_kind.h"
+#include "gltf/gltf_model.h"
+#include "gltf/mtl_materials.h"
+#include "gltf/obj_document.h"
+#include "io/obj.h"
+#include "io/text_scanner.h"
+#include "polygon_triangles.h"
+
+#include <array>
+#include <filesystem>
+#include <sstream>
+
+namespace bindpose
+{
+
+namespace
+{
+ObjTriangles triangulate(const PolygonMesh& mesh)
+{
+  std::vector<std::array<Index, 3>> triangles, corners;
+  std::vector<Vec3> polygon;
+  ObjTriangles result;
+  for (Index face = 0; face < mesh.polygon_count(); ++face)
+  {
+    const Index begin = mesh.offsets[face];
+    polygon.clear();
+    for (Index c = begin; c < mesh.offsets[face + 1]; ++c)
+    {
+      polygon.emplace_back(mesh.points.row(mesh.corners[c]).transpose());
+    }
+    triangulate_polygon(polygon, corners);
+    for (const auto& [a, b, c] : corners)
+    {
+      triangles.push_back({ begin + a, begin + b, begin + c });
+      result.faces.push_back(face);
+    }
+  }
+  result.corners = to_matrix(triangles);
+  return result;
+}
+
+/// Return the names of the files in a line mtllib. A name may contain blanks, so the whole text is
+/// a name if it is a file.
+std::vector<std::string> library_files(const std::string& folder, const std::string& text)
+{
+  if (is_in_folder(folder + "/" + text, folder))
+  {
+    return { text };
+  }
+  std::istringstream stream(text);
+  std::vector<std::string> names;
+  for (std::string name; stream >> name;)
+  {
+    names.push_back(name);
+  }
+  return names;
+}
+
+void append_materials(const std::string& folder, const ObjLook& look, GltfDocument& document,
+  std::map<std::string, int>& ids, std::vector<std::string>& warnings)
+{
+  for (const std::string& library : look.libraries)
+  {
+    for (const std::string& name : library_files(folder, library))
+    {
+      const std::string path = folder + "/" + name;
+      std::error_code error;
+      if (std::filesystem::exists(path, error) && !is_in_folder(path, folder))
+      {
+        throw GltfError(
+          "the file of materials '" + sanitize_line(name) + "' is not in the folder of the file");
+      }
+      std::string text;
+      const Status status = read_file(path, text);
+      if (!status.ok())
+      {
+        warnings.push_back(
+          "the materials of '" + sanitize_line(name) + "' are left out because " + status.message);
+        continue;
+      }
+      append_mtl_materials(text, std::filesystem::path(path).parent_path().string(),
+        look.material_names, document, ids, warnings);
+    }
+  }
+}
+
+Status read_obj_asset(const std::string& path, GltfAsset& asset)
+{
+  PolygonMesh mesh;
+  ObjLook look;
+  Status status = read_obj(path, mesh, look);
+  std::vector<std::string> warnings = status.warnings;
+  std::string bytes;
+  if (status.ok())
+  {
+    status = check_float_range(mesh.points);
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+  try
+  {
+    GltfDocument document;
+    std::map<std::string, int> materials;
+    const std::string folder = std::filesystem::path(path).parent_path().string();
+    append_materials(folder.empty() ? "." : folder, look, document, materials, warnings);
+    append_obj_scene(mesh, look, triangulate(mesh), materials, document);
+    status = document.to_bytes(true, bytes);
+  }
+  catch (const GltfError& failure)
+  {
+    status = Status::invalid_input(path + ": " + failure.sentence);
+  }
+  if (status.ok())
+  {
+    status = asset.read_bytes(path, std::move(bytes));
+  }
+  status.warnings.insert(status.warnings.begin(), warnings.begin(), warnings.end());
+  return status;
+}
+} // namespace
+
+Status read_asset_file(const std::string& path, GltfAsset& asset)
+{
+  const Status status = check_extension(path, asset_extensions());
+  if (!status.ok())
+  {
+    return status;
+  }
+  return file_extension(path) == "obj" ? read_obj_asset(path, asset) : asset.read(path);
+}
+
+} // namespace bindpose

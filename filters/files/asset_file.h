@@ -1,0 +1,24 @@
+#ifndef asset_file_h
+#define asset_file_h
+
+#include "gltf/gltf_asset.h"
+
+#include <string>
+
+namespace bindpose
+{
+
+/// Extensions of the files that read_asset_file() reads.
+inline const char* asset_extensions()
+{
+  return "glb gltf obj";
+}
+
+/// Read a file that can get a new skin. A file of another format than glTF is converted to glTF:
+/// OBJ with texture coordinates, normals, groups, vertex colors, and the materials and pictures of
+/// its .mtl files.
+Status read_asset_file(const std::string& path, GltfAsset& asset);
+
+} // namespace bindpose
+
+#endif

@@ -37,13 +37,13 @@
  * every method (reduced and full as-rigid-as-possible, dual quaternions) and takes 12 bytes per
  * vertex and frame. The joints are then at rest.
  *
- * **Assets**: with AssetFileName, a copy of this glTF file is written, and the meshes of its
- * default scene get the skin. Input 0 must have the points of vtkAssetReader for this file, with
- * weights. Everything but skins, joints and weights is kept: nodes, materials, textures, vertex
- * attributes, cameras, animations, extras and unknown extensions. If the handles are those of
- * vtkAssetReader, at the same rest positions, the joints of the file are kept, with their poses and
- * animations. A skin replaces the motion of the nodes of its meshes; an animation of the file that
- * moves only some of the meshes by their nodes, or joints that are replaced, is lost, with a
+ * **Assets**: with AssetFileName, a copy of this glTF or OBJ file is written, and the meshes
+ * of its default scene get the skin. Input 0 must have the points of vtkAssetReader for this file,
+ * with weights. Everything but skins, joints and weights is kept: nodes, materials, textures,
+ * vertex attributes, cameras, animations, extras and unknown extensions. If the handles are those
+ * of vtkAssetReader, at the same rest positions, the joints of the file are kept, with their poses
+ * and animations. A skin replaces the motion of the nodes of its meshes; an animation of the file
+ * that moves only some of the meshes by their nodes, or joints that are replaced, is lost, with a
  * warning. Frames are stored as an animation of the joints.
  *
  * The file is written under a temporary name next to its target and renamed at the end; a failure
@@ -92,7 +92,7 @@ public:
   ///@}
 
   ///@{
-  /// Path of the glTF file whose meshes get the skin, see the class documentation. Default: none,
+  /// Path of the file whose meshes get the skin, see the class documentation. Default: none,
   /// which means that the file contains only the mesh.
   vtkSetFilePathMacro(AssetFileName);
   vtkGetFilePathMacro(AssetFileName);

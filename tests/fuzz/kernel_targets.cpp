@@ -11,6 +11,7 @@ const std::vector<FuzzTarget>& kernel_fuzz_targets()
   static const std::vector<FuzzTarget> targets{
     { "off", check_off, 3000 },
     { "obj", check_obj, 3000 },
+    { "mtl", check_mtl, 6000 },
     { "ply", check_ply, 6000 },
     { "stl", check_stl, 4000 },
     { "medit", check_medit, 3000 },

@@ -1,5 +1,8 @@
 #include "fuzz/mesh_file_targets.h"
 
+#include "gltf/gltf_asset.h"
+#include "gltf/mtl_materials.h"
+#include "gltf/obj_document.h"
 #include "io/medit.h"
 #include "io/obj.h"
 #include "io/off.h"
@@ -8,6 +11,9 @@
 
 #include "fuzz/memory_file.h"
 #include "fuzz/status_checks.h"
+
+#include <algorithm>
+#include <array>
 
 namespace bindpose::test
 {
@@ -29,6 +35,44 @@ void expect_consistent(const PolygonMesh& mesh)
     ASSERT_TRUE(corner >= 0 && corner < mesh.points.rows()) << corner;
   }
   EXPECT_TRUE(check_mesh(mesh.points, fan_triangles(mesh)).ok());
+}
+
+void expect_look_in_range(const PolygonMesh& mesh, const ObjLook& look)
+{
+  const auto expect_ids = [](const std::vector<Index>& ids, std::size_t count, Index rows)
+  {
+    EXPECT_EQ(ids.size(), count);
+    EXPECT_TRUE(
+      std::all_of(ids.begin(), ids.end(), [rows](Index id) { return id >= -1 && id < rows; }));
+  };
+  const auto faces = static_cast<std::size_t>(mesh.polygon_count());
+  expect_ids(look.texture_ids, mesh.corners.size(), look.texture.rows());
+  expect_ids(look.normal_ids, mesh.corners.size(), look.normals.rows());
+  expect_ids(look.materials, faces, static_cast<Index>(look.material_names.size()));
+  expect_ids(look.parts, faces, static_cast<Index>(look.part_names.size()));
+  EXPECT_TRUE(look.colors.rows() == 0 || look.colors.rows() == mesh.points.rows());
+  ObjTriangles fans;
+  std::vector<std::array<Index, 3>> corners;
+  for (Index f = 0; f < mesh.polygon_count(); ++f)
+  {
+    for (Index c = mesh.offsets[f] + 1; c + 1 < mesh.offsets[f + 1]; ++c)
+    {
+      corners.push_back({ mesh.offsets[f], c, c + 1 });
+      fans.faces.push_back(f);
+    }
+  }
+  if (corners.empty() || !check_float_range(mesh.points).ok())
+  {
+    return;
+  }
+  fans.corners = to_matrix(corners);
+  GltfDocument document;
+  append_obj_scene(mesh, look, fans, {}, document);
+  std::string bytes;
+  ASSERT_TRUE(document.to_bytes(true, bytes).ok());
+  GltfAsset asset;
+  const Status status = asset.read_bytes("m.obj", bytes);
+  EXPECT_TRUE(status.ok()) << status.message;
 }
 
 bool check_polygons(std::string_view input, Status (*read)(const std::string&, PolygonMesh&))
@@ -55,7 +99,44 @@ bool check_off(std::string_view input)
 
 bool check_obj(std::string_view input)
 {
-  return check_polygons(input, read_obj);
+  const bool accepted = check_polygons(input, read_obj);
+  const MemoryFile file(input);
+  PolygonMesh mesh;
+  ObjLook look;
+  const Status status = read_obj(file.path(), mesh, look);
+  if (!status.ok())
+  {
+    expect_refused(status);
+    return accepted; // texture coordinates and normals may be wrong
+  }
+  EXPECT_TRUE(accepted);
+  expect_valid_messages(status);
+  expect_look_in_range(mesh, look);
+  return true;
+}
+
+bool check_mtl(std::string_view input)
+{
+  GltfDocument document;
+  std::map<std::string, int> ids;
+  std::vector<std::string> warnings;
+  try
+  {
+    append_mtl_materials(
+      std::string(input), "/nonexistent", { "red", "wood" }, document, ids, warnings);
+  }
+  catch (const GltfError&)
+  {
+    return false;
+  }
+  for (const std::string& warning : warnings)
+  {
+    EXPECT_EQ(warning, sanitize_line(warning));
+  }
+  std::string bytes;
+  EXPECT_TRUE(document.to_bytes(false, bytes).ok()); // no number is NaN, all texts are UTF-8
+  EXPECT_EQ(bytes.find("null"), std::string::npos);
+  return !ids.empty();
 }
 
 bool check_ply(std::string_view input)

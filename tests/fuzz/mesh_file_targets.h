@@ -14,6 +14,10 @@ bool check_ply(std::string_view input);
 bool check_stl(std::string_view input);
 bool check_medit(std::string_view input);
 
+/// Read materials of an OBJ file, of which "red" and "wood" are used. Expect a document without
+/// numbers that are not finite.
+bool check_mtl(std::string_view input);
+
 } // namespace bindpose::test
 
 #endif

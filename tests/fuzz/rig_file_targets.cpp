@@ -1,5 +1,6 @@
 #include "fuzz/rig_file_targets.h"
 
+#include "gltf/gltf_asset.h"
 #include "gltf/gltf_skin.h"
 #include "io/dmat.h"
 #include "io/expression.h"
@@ -84,8 +85,47 @@ void expect_consistent_skin(const GltfSkin& skin)
 }
 } // namespace
 
+namespace
+{
+/// Give the meshes of a file one joint. The result must be a file with the same vertices.
+void check_asset(std::string_view input)
+{
+  GltfAsset asset;
+  const Status status = asset.read_bytes("asset.glb", std::string(input));
+  if (!status.ok())
+  {
+    expect_refused(status);
+    return;
+  }
+  expect_valid_messages(status);
+  GltfSkin skin;
+  skin.joints.resize(1);
+  skin.joints[0].name = "root";
+  skin.weights = Weights::Ones(asset.points().rows(), 1);
+  ExecutionContext context;
+  const Status edited = asset.set_skin(context, skin, 4);
+  if (!edited.ok())
+  {
+    expect_refused(edited);
+    return;
+  }
+  std::string bytes;
+  const Status written = asset.to_bytes(true, bytes);
+  if (!written.ok())
+  {
+    expect_refused(written); // a text is not UTF-8
+    return;
+  }
+  GltfAsset again;
+  const Status read = again.read_bytes("again.glb", bytes);
+  EXPECT_TRUE(read.ok()) << read.message;
+  EXPECT_EQ(again.points().rows(), asset.points().rows());
+}
+} // namespace
+
 bool check_gltf(std::string_view input)
 {
+  check_asset(input);
   const MemoryFile file(input);
   GltfSkin skin;
   const Status status = read_gltf_skin(file.path(), skin);

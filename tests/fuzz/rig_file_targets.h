@@ -8,7 +8,7 @@ namespace bindpose::test
 
 /// Read a skeleton (.tgf), a matrix (.dmat), a rig (.gltf or .glb) or a pose file. If it is
 /// accepted, expect that all values are finite and in range. Skeletons and poses must also be the
-/// same after they are written and read again.
+/// same after they are written and read again, and the meshes of a rig can get a new skin.
 bool check_tgf(std::string_view input);
 bool check_dmat(std::string_view input);
 bool check_gltf(std::string_view input);

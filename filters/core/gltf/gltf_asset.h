@@ -66,6 +66,11 @@ public:
   /// canceled after a request, which is checked once per frame.
   Status set_skin(ExecutionContext& context, GltfSkin skin, Index maximum_influences);
 
+  /// Set `bytes` to the bytes of the file; see GltfDocument::to_bytes().
+  Status to_bytes(bool binary, std::string& bytes) const
+  {
+    return this->document_.to_bytes(binary, bytes);
+  }
   /// Write the file, as .glb or as .gltf with all data in the same file. Report: file_bytes.
   Status write(const std::string& path, bool binary) const;
 

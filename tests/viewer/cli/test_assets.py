@@ -131,11 +131,12 @@ def write_obj(folder):
     vertices, faces = shapes.bar()
     lines += [f"v {x} {y} {z}" for x, y, z in vertices]
     lines += [f"vt {x / 6} {y}" for x, y, _ in vertices]
-    for group, material, sign in (("left", "wood", 1), ("right", "steel", -1)):
+    squares = [(*a, b[2]) for a, b in zip(faces[::2], faces[1::2])]
+    for group, material in (("left", "wood"), ("right", "steel")):
         lines += [f"g {group}", f"usemtl {material}"]
-        for a, b in zip(faces[::2], faces[1::2]):  # two triangles of a square
-            if sign * (sum(vertices[v][0] for v in a) - 9) < 0 or (sign < 0 and sum(vertices[v][0] for v in a) == 9):
-                lines.append("f " + " ".join(f"{v + 1}/{v + 1}" for v in (*a, b[2])))
+        for square in squares:
+            if (sum(vertices[v][0] for v in square) < 12) == (group == "left"):
+                lines.append("f " + " ".join(f"{v + 1}/{v + 1}" for v in square))
     folder.write("bar.obj", "\n".join(lines) + "\n")
     folder.write("bar.mtl", "newmtl wood\nKd 0.5 0.25 1\nmap_Kd wood.png\nnewmtl steel\nKd 0.5 0.5 0.5\nPm 1\n")
     picture = shapes.png(4, 4, lambda x, y: (50 * x, 50 * y, 0, 255))

@@ -1426,8 +1426,9 @@ TEST_P(DragFrame, TakesMilliseconds)
   this->choose(PoseMethod::reduced_arap);
   ASSERT_TRUE(this->wait_until_settled());
   this->render();
-  // Limit in milliseconds on a busy machine; an idle machine needs a tenth of it.
-  constexpr double limit_milliseconds = 50.0;
+  // Limit in milliseconds. A slow machine with another test beside this one needed 18, and 56 with
+  // the angles; a drag that binds again needs seconds.
+  constexpr double limit_milliseconds = 300.0;
   EXPECT_LT(this->drag(mesh, ""), limit_milliseconds);
   this->option<QComboBox>("pose.rotations")->setCurrentIndex(2);
   this->render();

@@ -13,8 +13,11 @@
  * vertices of a mesh occur once for each node with the mesh. If a mesh has a skin, its points have
  * the positions of the bind pose. Vertices that the file splits at seams of textures stay split;
  * the weights filters give equal weights to points at the same position.
+ * **Output 1**: the joints of the skins of these meshes as handles, in scene coordinates, as in
+ * vtkGLTFSkinReader. No cells if no mesh has a skin. New weights for these handles keep the joints
+ * of the file and their animations.
  *
- * Use vtkGLTFSkinReader instead to read the weights, the joints and the animation of a rig.
+ * Use vtkGLTFSkinReader instead to read the weights and the animation of a rig.
  *
  * A missing, truncated or invalid file gives INVALID_INPUT with one sentence that names it. It
  * never causes a crash or a partial mesh.

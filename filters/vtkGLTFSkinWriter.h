@@ -37,7 +37,7 @@
  * every method (reduced and full as-rigid-as-possible, dual quaternions) and takes 12 bytes per
  * vertex and frame. The joints are then at rest.
  *
- * **Assets**: with AssetFileName, a copy of this glTF or OBJ file is written, and the meshes
+ * **Assets**: with AssetFileName, a copy of this file is written as glTF, and the meshes
  * of its default scene get the skin. Input 0 must have the points of vtkAssetReader for this file,
  * with weights. Everything but skins, joints and weights is kept: nodes, materials, textures,
  * vertex attributes, cameras, animations, extras and unknown extensions. If the handles are those

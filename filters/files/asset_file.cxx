@@ -3,8 +3,9 @@
 #include "file_kind.h"
 #include "gltf/gltf_model.h"
 #include "gltf/mtl_materials.h"
-#include "gltf/obj_document.h"
+#include "gltf/look_document.h"
 #include "io/obj.h"
+#include "io/ply.h"
 #include "io/text_scanner.h"
 #include "polygon_triangles.h"
 
@@ -17,11 +18,11 @@ namespace bindpose
 
 namespace
 {
-ObjTriangles triangulate(const PolygonMesh& mesh)
+LookTriangles triangulate(const PolygonMesh& mesh)
 {
   std::vector<std::array<Index, 3>> triangles, corners;
   std::vector<Vec3> polygon;
-  ObjTriangles result;
+  LookTriangles result;
   for (Index face = 0; face < mesh.polygon_count(); ++face)
   {
     const Index begin = mesh.offsets[face];
@@ -58,9 +59,16 @@ std::vector<std::string> library_files(const std::string& folder, const std::str
   return names;
 }
 
-void append_materials(const std::string& folder, const ObjLook& look, GltfDocument& document,
-  std::map<std::string, int>& ids, std::vector<std::string>& warnings)
+/// Append the materials of a look, and return their ids by name.
+std::map<std::string, int> append_materials(const std::string& folder, const MeshLook& look,
+  GltfDocument& document, std::vector<std::string>& warnings)
 {
+  std::map<std::string, int> ids;
+  if (!look.picture.empty())
+  {
+    const std::string& name = look.material_names.front();
+    ids[name] = append_picture_material(name, look.picture, folder, document, warnings);
+  }
   for (const std::string& library : look.libraries)
   {
     for (const std::string& name : library_files(folder, library))
@@ -84,13 +92,16 @@ void append_materials(const std::string& folder, const ObjLook& look, GltfDocume
         look.material_names, document, ids, warnings);
     }
   }
+  return ids;
 }
 
-Status read_obj_asset(const std::string& path, GltfAsset& asset)
+/// Read an OBJ or PLY file.
+Status read_look_asset(const std::string& path, GltfAsset& asset)
 {
   PolygonMesh mesh;
-  ObjLook look;
-  Status status = read_obj(path, mesh, look);
+  MeshLook look;
+  Status status =
+    file_extension(path) == "obj" ? read_obj(path, mesh, look) : read_ply(path, mesh, look);
   std::vector<std::string> warnings = status.warnings;
   std::string bytes;
   if (status.ok())
@@ -104,10 +115,10 @@ Status read_obj_asset(const std::string& path, GltfAsset& asset)
   try
   {
     GltfDocument document;
-    std::map<std::string, int> materials;
     const std::string folder = std::filesystem::path(path).parent_path().string();
-    append_materials(folder.empty() ? "." : folder, look, document, materials, warnings);
-    append_obj_scene(mesh, look, triangulate(mesh), materials, document);
+    const std::map<std::string, int> materials =
+      append_materials(folder.empty() ? "." : folder, look, document, warnings);
+    append_look_scene(mesh, look, triangulate(mesh), materials, document);
     status = document.to_bytes(true, bytes);
   }
   catch (const GltfError& failure)
@@ -130,7 +141,8 @@ Status read_asset_file(const std::string& path, GltfAsset& asset)
   {
     return status;
   }
-  return file_extension(path) == "obj" ? read_obj_asset(path, asset) : asset.read(path);
+  return is_listed(file_extension(path), "obj ply") ? read_look_asset(path, asset)
+                                                    : asset.read(path);
 }
 
 } // namespace bindpose

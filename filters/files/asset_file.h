@@ -11,12 +11,12 @@ namespace bindpose
 /// Extensions of the files that read_asset_file() reads.
 inline const char* asset_extensions()
 {
-  return "glb gltf obj";
+  return "glb gltf obj ply";
 }
 
 /// Read a file that can get a new skin. A file of another format than glTF is converted to glTF:
 /// OBJ with texture coordinates, normals, groups, vertex colors, and the materials and pictures of
-/// its .mtl files.
+/// its .mtl files; PLY with texture coordinates, normals, vertex colors and its picture.
 Status read_asset_file(const std::string& path, GltfAsset& asset);
 
 } // namespace bindpose

@@ -57,12 +57,12 @@ class Asset(NamedTuple):
 
 
 def read_asset(path: Path) -> Asset:
-    """Read the triangles of all meshes of a glTF or OBJ file, for a new rig of the whole file.
+    """Read the triangles of all meshes of a glTF, OBJ or PLY file, for a new rig of the whole file.
 
     Parameters
     ----------
     path : str or path-like
-        .glb, .gltf, or .obj with its .mtl files and pictures.
+        .glb, .gltf, .obj with its .mtl files and pictures, or .ply.
 
     Returns
     -------

@@ -2,7 +2,7 @@
 
 #include "gltf/gltf_asset.h"
 #include "gltf/mtl_materials.h"
-#include "gltf/obj_document.h"
+#include "gltf/look_document.h"
 #include "io/medit.h"
 #include "io/obj.h"
 #include "io/off.h"
@@ -37,7 +37,7 @@ void expect_consistent(const PolygonMesh& mesh)
   EXPECT_TRUE(check_mesh(mesh.points, fan_triangles(mesh)).ok());
 }
 
-void expect_look_in_range(const PolygonMesh& mesh, const ObjLook& look)
+void expect_look_in_range(const PolygonMesh& mesh, const MeshLook& look)
 {
   const auto expect_ids = [](const std::vector<Index>& ids, std::size_t count, Index rows)
   {
@@ -51,7 +51,7 @@ void expect_look_in_range(const PolygonMesh& mesh, const ObjLook& look)
   expect_ids(look.materials, faces, static_cast<Index>(look.material_names.size()));
   expect_ids(look.parts, faces, static_cast<Index>(look.part_names.size()));
   EXPECT_TRUE(look.colors.rows() == 0 || look.colors.rows() == mesh.points.rows());
-  ObjTriangles fans;
+  LookTriangles fans;
   std::vector<std::array<Index, 3>> corners;
   for (Index f = 0; f < mesh.polygon_count(); ++f)
   {
@@ -67,12 +67,27 @@ void expect_look_in_range(const PolygonMesh& mesh, const ObjLook& look)
   }
   fans.corners = to_matrix(corners);
   GltfDocument document;
-  append_obj_scene(mesh, look, fans, {}, document);
+  append_look_scene(mesh, look, fans, {}, document);
   std::string bytes;
   ASSERT_TRUE(document.to_bytes(true, bytes).ok());
   GltfAsset asset;
   const Status status = asset.read_bytes("m.obj", bytes);
   EXPECT_TRUE(status.ok()) << status.message;
+}
+
+void check_look(std::string_view input, Status (*read)(const std::string&, PolygonMesh&, MeshLook&))
+{
+  const MemoryFile file(input);
+  PolygonMesh mesh;
+  MeshLook look;
+  const Status status = read(file.path(), mesh, look);
+  if (!status.ok())
+  {
+    expect_refused(status);
+    return;
+  }
+  expect_valid_messages(status);
+  expect_look_in_range(mesh, look);
 }
 
 bool check_polygons(std::string_view input, Status (*read)(const std::string&, PolygonMesh&))
@@ -100,19 +115,8 @@ bool check_off(std::string_view input)
 bool check_obj(std::string_view input)
 {
   const bool accepted = check_polygons(input, read_obj);
-  const MemoryFile file(input);
-  PolygonMesh mesh;
-  ObjLook look;
-  const Status status = read_obj(file.path(), mesh, look);
-  if (!status.ok())
-  {
-    expect_refused(status);
-    return accepted; // texture coordinates and normals may be wrong
-  }
-  EXPECT_TRUE(accepted);
-  expect_valid_messages(status);
-  expect_look_in_range(mesh, look);
-  return true;
+  check_look(input, read_obj);
+  return accepted;
 }
 
 bool check_mtl(std::string_view input)
@@ -141,7 +145,9 @@ bool check_mtl(std::string_view input)
 
 bool check_ply(std::string_view input)
 {
-  return check_polygons(input, read_ply);
+  const bool accepted = check_polygons(input, read_ply);
+  check_look(input, read_ply);
+  return accepted;
 }
 
 bool check_stl(std::string_view input)

@@ -79,7 +79,7 @@ def test_assets(tmp_path):
         bindpose.bind(mesh, ends, domain="surface").save(tmp_path / "moved.glb", asset=tmp_path / "c.gltf")
     with pytest.raises(bindpose.InvalidInput, match="morph targets cannot be added"):
         rig.save(tmp_path / "morph.glb", asset=tmp_path / "c.gltf", animation="morph")
-    for missing in ("none.glb", "none.ply"):
+    for missing in ("none.glb", "none.stl"):
         with pytest.raises(bindpose.InvalidInput, match=missing):
             bindpose.read_asset(tmp_path / missing)
 

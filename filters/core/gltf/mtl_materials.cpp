@@ -178,4 +178,15 @@ void append_mtl_materials(const std::string& text, const std::string& folder,
   }
 }
 
+int append_picture_material(const std::string& name, const std::string& picture,
+  const std::string& folder, GltfDocument& document, std::vector<std::string>& warnings)
+{
+  tinyobj::material_t material{};
+  material.name = name;
+  std::fill_n(material.diffuse, 3, 1.0);
+  material.dissolve = 1.0;
+  material.diffuse_texname = picture;
+  return MaterialWriter(folder, document, warnings).append(material);
+}
+
 } // namespace bindpose

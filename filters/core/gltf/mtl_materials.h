@@ -1,7 +1,7 @@
 #ifndef bindpose_gltf_mtl_materials_h
 #define bindpose_gltf_mtl_materials_h
 
-// Materials of OBJ files in a glTF document.
+// Materials of OBJ and PLY files in a glTF document.
 
 #include "gltf/gltf_document.h"
 
@@ -26,6 +26,11 @@ namespace bindpose
 void append_mtl_materials(const std::string& text, const std::string& folder,
   const std::vector<std::string>& names, GltfDocument& document, std::map<std::string, int>& ids,
   std::vector<std::string>& warnings);
+
+/// Append a double-sided white material with a picture, and return its id. Pictures that are
+/// missing, unknown or outside of the folder are handled as in append_mtl_materials().
+int append_picture_material(const std::string& name, const std::string& picture,
+  const std::string& folder, GltfDocument& document, std::vector<std::string>& warnings);
 
 } // namespace bindpose
 

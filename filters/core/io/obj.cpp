@@ -90,7 +90,7 @@ Status read_entry(TextScanner& scanner, Index vertices, const std::string& eleme
 class LookReader
 {
 public:
-  LookReader(TextScanner& scanner, ObjLook& look) : scanner_(scanner), look_(look) {}
+  LookReader(TextScanner& scanner, MeshLook& look) : scanner_(scanner), look_(look) {}
 
   /// Read a line that begins with `word`.
   Status read(std::string_view word)
@@ -176,7 +176,7 @@ public:
     const auto texture = static_cast<Index>(this->texture_.size() / 2);
     const auto normals = static_cast<Index>(this->normals_.size() / 3);
     this->look_.texture =
-      Eigen::Map<const decltype(ObjLook::texture)>(this->texture_.data(), texture, 2);
+      Eigen::Map<const decltype(MeshLook::texture)>(this->texture_.data(), texture, 2);
     this->look_.normals = Eigen::Map<const Points>(this->normals_.data(), normals, 3);
     if (static_cast<Index>(this->colors_.size()) == 3 * vertices)
     {
@@ -236,7 +236,7 @@ private:
   }
 
   TextScanner& scanner_;
-  ObjLook& look_;
+  MeshLook& look_;
   std::vector<double> texture_, normals_, colors_;
   std::map<std::string, Index> material_ids_, part_ids_;
   std::string object_, group_;
@@ -259,7 +259,7 @@ Status check_entries(const std::string& path, const std::string& element_name,
   return {};
 }
 /// @param look is not read if it is null
-Status read(const std::string& path, PolygonMesh& mesh, ObjLook* look)
+Status read(const std::string& path, PolygonMesh& mesh, MeshLook* look)
 {
   mesh = PolygonMesh();
   std::string text;
@@ -269,7 +269,7 @@ Status read(const std::string& path, PolygonMesh& mesh, ObjLook* look)
     return status;
   }
   TextScanner scanner(path, text);
-  ObjLook found;
+  MeshLook found;
   LookReader look_reader(scanner, found);
   std::vector<Vec3> points;
   std::vector<std::string_view> words; // corners of a face
@@ -353,7 +353,7 @@ Status read_obj(const std::string& path, PolygonMesh& mesh)
   return read(path, mesh, nullptr);
 }
 
-Status read_obj(const std::string& path, PolygonMesh& mesh, ObjLook& look)
+Status read_obj(const std::string& path, PolygonMesh& mesh, MeshLook& look)
 {
   return read(path, mesh, &look);
 }

@@ -1,6 +1,6 @@
 // Reader and writer of PLY files (see ply.h). A text header lists elements and their properties.
 // The values of the elements follow, as text or as raw numbers. All values are parsed, but only x,
-// y, z and the lists of vertex ids are stored.
+// y, z, the lists of vertex ids, and the look of the faces are stored.
 #include "io/ply.h"
 
 #include "io/text_scanner.h"
@@ -52,6 +52,7 @@ struct Header
 {
   Encoding encoding = Encoding::ascii;
   std::vector<Element> elements;
+  std::string picture; ///< the text after "comment TextureFile"
 };
 
 bool parse_type(std::string_view word, Type& type)
@@ -138,6 +139,10 @@ Status read_header(TextScanner& scanner, Header& header)
       element.name = std::string(word);
       status = scanner.read_index("a number of elements", Index(1) << 40, element.count);
       header.elements.push_back(element);
+    }
+    else if (word == "comment" && scanner.next_word(word) && word == "TextureFile")
+    {
+      header.picture = scanner.rest_of_line();
     }
     else if (word == "property")
     {
@@ -232,88 +237,170 @@ private:
   Encoding encoding_;
 };
 
-/// How the reader uses the values of a property.
+/// How the reader uses the values of a property. The values of a vertex are stored in the order of
+/// the roles from x to v.
 enum class Role
 {
   skipped,
   x,
   y,
   z,
-  corners
+  normal_x,
+  normal_y,
+  normal_z,
+  red,
+  green,
+  blue,
+  u,
+  v,
+  corners,
+  corner_texture ///< u and v of the corners of a face
+};
+
+constexpr int vertex_roles = static_cast<int>(Role::v); ///< number of values of a vertex
+
+/// The data of vertices and corners besides positions and vertex ids.
+struct VertexLook
+{
+  /// #V x vertex_roles: the values in the order of the roles.
+  Eigen::Matrix<double, Eigen::Dynamic, vertex_roles, Eigen::RowMajor> values;
+  std::vector<double> corner_texture; ///< u and v of the corners of the faces
+  std::vector<Index> corner_ids; ///< per corner: row of corner_texture, or -1
 };
 
 Role role_of(const Element& element, const Property& property)
 {
-  if (element.name == "vertex" && !property.list && property.name.size() == 1)
+  static const std::pair<const char*, Role> vertex_names[] = { { "x", Role::x }, { "y", Role::y },
+    { "z", Role::z }, { "nx", Role::normal_x }, { "ny", Role::normal_y }, { "nz", Role::normal_z },
+    { "red", Role::red }, { "green", Role::green }, { "blue", Role::blue }, { "s", Role::u },
+    { "t", Role::v }, { "u", Role::u }, { "v", Role::v }, { "texture_u", Role::u },
+    { "texture_v", Role::v } };
+  if (element.name == "vertex" && !property.list)
   {
-    const std::size_t axis = std::string("xyz").find(property.name);
-    constexpr Role axes[] = { Role::x, Role::y, Role::z };
-    return axis < 3 ? axes[axis] : Role::skipped;
+    for (const auto& [name, role] : vertex_names)
+    {
+      if (property.name == name)
+      {
+        return role;
+      }
+    }
   }
-  if (element.name == "face" && property.list &&
-    (property.name == "vertex_indices" || property.name == "vertex_index"))
+  if (element.name == "face" && property.list)
   {
-    return Role::corners;
+    const bool are_corners = property.name == "vertex_indices" || property.name == "vertex_index";
+    return are_corners              ? Role::corners
+      : property.name == "texcoord" ? Role::corner_texture
+                                    : Role::skipped;
   }
   return Role::skipped;
 }
 
+bool has_role(const Header& header, Role role)
+{
+  for (const Element& element : header.elements)
+  {
+    for (const Property& property : element.properties)
+    {
+      if (role_of(element, property) == role)
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Return the factor from stored colors to values from 0 to 1.
+double color_scale(Type type)
+{
+  return type == Type::uint8 ? 1.0 / 255.0 : type == Type::uint16 ? 1.0 / 65535.0 : 1.0;
+}
+
+/// Read a list. Its values are added to the corners of the mesh or to `texture`, or skipped.
 Status read_list(const std::string& path, ValueReader& values, const Property& property, Role role,
-  Index vertices, PolygonMesh& mesh)
+  PolygonMesh& mesh, std::vector<double>& texture)
 {
   double count = 0;
   if (!values.next(property.count_type, count) || !(count >= 0) || count != std::floor(count))
   {
     return values.error(path, "the file is truncated or corrupt: expected the length of a list");
   }
-  const std::size_t begin = mesh.corners.size();
+  const auto vertices = static_cast<double>(mesh.points.rows());
   for (double k = 0; k < count; ++k)
   {
-    double id = 0;
-    if (!values.next(property.type, id))
+    double value = 0;
+    if (!values.next(property.type, value))
     {
       return values.error(path, "the file is truncated or corrupt: expected a value of a list");
+    }
+    if (role == Role::corner_texture)
+    {
+      texture.push_back(value);
     }
     if (role != Role::corners)
     {
       continue;
     }
-    if (!(id >= 0) || id >= static_cast<double>(vertices) || id != std::floor(id))
+    if (!(value >= 0) || value >= vertices || value != std::floor(value))
     {
       return values.error(path,
         "face " + std::to_string(mesh.polygon_count() + mesh.skipped) +
-          " references a vertex that does not exist (there are " + std::to_string(vertices) +
-          " vertices)");
+          " references a vertex that does not exist (there are " +
+          std::to_string(mesh.points.rows()) + " vertices)");
     }
-    mesh.corners.push_back(static_cast<Index>(id));
-  }
-  if (role == Role::corners && mesh.corners.size() < begin + 3)
-  {
-    mesh.corners.resize(begin);
-    mesh.skipped += 1;
-  }
-  else if (role == Role::corners)
-  {
-    mesh.end_polygon();
+    mesh.corners.push_back(static_cast<Index>(value));
   }
   return {};
 }
 
+/// End the face whose corners begin at `begin`. Skip it if it has fewer than three corners.
+/// @param texture u and v of its corners, in the order of the corners
+void end_face(
+  std::size_t begin, const std::vector<double>& texture, PolygonMesh& mesh, VertexLook* look)
+{
+  const std::size_t corners = mesh.corners.size() - begin;
+  if (corners < 3)
+  {
+    mesh.corners.resize(begin);
+    mesh.skipped += 1;
+    return;
+  }
+  mesh.end_polygon();
+  if (look)
+  {
+    const bool has_texture = texture.size() == 2 * corners &&
+      std::all_of(texture.begin(), texture.end(), [](double x) { return std::isfinite(x); });
+    for (std::size_t k = 0; k < corners; ++k)
+    {
+      look->corner_ids.push_back(
+        has_texture ? static_cast<Index>(look->corner_texture.size() / 2 + k) : -1);
+    }
+    if (has_texture)
+    {
+      look->corner_texture.insert(look->corner_texture.end(), texture.begin(), texture.end());
+    }
+  }
+}
+
 Status read_element(const std::string& path, ValueReader& values, const Element& element,
-  Index vertices, PolygonMesh& mesh)
+  PolygonMesh& mesh, VertexLook* look)
 {
   std::vector<Role> roles;
   for (const Property& property : element.properties)
   {
     roles.push_back(role_of(element, property));
   }
+  const bool has_corners = std::find(roles.begin(), roles.end(), Role::corners) != roles.end();
+  std::vector<double> texture;
   for (Index i = 0; i < element.count; ++i)
   {
+    const std::size_t begin = mesh.corners.size();
+    texture.clear();
     for (std::size_t p = 0; p < roles.size(); ++p)
     {
       if (element.properties[p].list)
       {
-        Status status = read_list(path, values, element.properties[p], roles[p], vertices, mesh);
+        Status status = read_list(path, values, element.properties[p], roles[p], mesh, texture);
         if (!status.ok())
         {
           return status;
@@ -321,29 +408,80 @@ Status read_element(const std::string& path, ValueReader& values, const Element&
         continue;
       }
       double value = 0;
-      if (!values.next(element.properties[p].type, value))
+      const Type type = element.properties[p].type;
+      if (!values.next(type, value))
       {
         return values.error(path,
           "the file is truncated or corrupt: " + element.name + " " + std::to_string(i) +
             " has no value of property " + element.properties[p].name);
       }
-      if (roles[p] == Role::skipped)
+      const Role role = roles[p];
+      if (role >= Role::x && role <= Role::z)
       {
-        continue;
+        if (!std::isfinite(value))
+        {
+          return values.error(
+            path, "vertex " + std::to_string(i) + " has a coordinate that is not a finite number");
+        }
+        mesh.points(i, static_cast<int>(role) - static_cast<int>(Role::x)) = value;
       }
-      if (!std::isfinite(value))
+      else if (role != Role::skipped && look)
       {
-        return values.error(
-          path, "vertex " + std::to_string(i) + " has a coordinate that is not a finite number");
+        const bool is_color = role >= Role::red && role <= Role::blue;
+        look->values(i, static_cast<int>(role) - static_cast<int>(Role::x)) =
+          std::isfinite(value) ? value * (is_color ? color_scale(type) : 1.0) : 0.0;
       }
-      mesh.points(i, static_cast<int>(roles[p]) - static_cast<int>(Role::x)) = value;
+    }
+    if (has_corners)
+    {
+      end_face(begin, texture, mesh, look);
     }
   }
   return {};
 }
-} // namespace
 
-Status read_ply(const std::string& path, PolygonMesh& mesh)
+/// Convert the data of vertices and corners to a look.
+void make_look(
+  const Header& header, const PolygonMesh& mesh, const VertexLook& vertices, MeshLook& look)
+{
+  look = MeshLook();
+  const auto columns = [&vertices](Role first, int count) {
+    return vertices.values.middleCols(static_cast<int>(first) - static_cast<int>(Role::x), count);
+  };
+  const std::size_t corners = mesh.corners.size();
+  look.texture_ids.assign(corners, -1);
+  look.normal_ids.assign(corners, -1);
+  if (has_role(header, Role::normal_x) && has_role(header, Role::normal_y) &&
+    has_role(header, Role::normal_z))
+  {
+    look.normals = columns(Role::normal_x, 3);
+    look.normal_ids = mesh.corners;
+  }
+  if (has_role(header, Role::red) && has_role(header, Role::green) && has_role(header, Role::blue))
+  {
+    look.colors = columns(Role::red, 3);
+  }
+  if (!vertices.corner_texture.empty())
+  {
+    look.texture = Eigen::Map<const decltype(MeshLook::texture)>(
+      vertices.corner_texture.data(), static_cast<Index>(vertices.corner_texture.size() / 2), 2);
+    look.texture_ids = vertices.corner_ids;
+  }
+  else if (has_role(header, Role::u) && has_role(header, Role::v))
+  {
+    look.texture = columns(Role::u, 2);
+    look.texture_ids = mesh.corners;
+  }
+  const auto polygons = static_cast<std::size_t>(mesh.polygon_count());
+  look.parts.assign(polygons, 0);
+  look.part_names = { "" };
+  look.picture = header.picture;
+  look.materials.assign(polygons, look.picture.empty() ? -1 : 0);
+  look.material_names.assign(look.picture.empty() ? 0 : 1, "texture");
+}
+
+/// @param look is not read if it is null
+Status read(const std::string& path, PolygonMesh& mesh, MeshLook* look)
 {
   mesh = PolygonMesh();
   std::string text;
@@ -360,7 +498,6 @@ Status read_ply(const std::string& path, PolygonMesh& mesh)
     return status;
   }
   Index vertices = -1;
-  bool has_faces = false;
   for (const Element& element : header.elements)
   {
     if (static_cast<std::size_t>(element.count) > text.size())
@@ -375,37 +512,48 @@ Status read_ply(const std::string& path, PolygonMesh& mesh)
     if (element.name == "vertex")
     {
       vertices = element.count;
-      int axes = 0;
-      for (const Property& property : element.properties)
-      {
-        axes += role_of(element, property) != Role::skipped;
-      }
-      if (axes != 3)
-      {
-        return scanner.error("the element vertex must have the properties x, y and z");
-      }
-    }
-    for (const Property& property : element.properties)
-    {
-      has_faces = has_faces || role_of(element, property) == Role::corners;
     }
   }
-  if (vertices < 0 || !has_faces)
+  if (vertices < 0 || !has_role(header, Role::corners))
   {
     return scanner.error("the header must have the elements vertex and face");
   }
+  if (!has_role(header, Role::x) || !has_role(header, Role::y) || !has_role(header, Role::z))
+  {
+    return scanner.error("the element vertex must have the properties x, y and z");
+  }
   mesh.points.setZero(vertices, 3);
+  VertexLook vertex_look;
+  if (look)
+  {
+    vertex_look.values.setZero(vertices, vertex_roles);
+  }
   ValueReader values(scanner, text, header.encoding);
   for (const Element& element : header.elements)
   {
-    status = read_element(path, values, element, vertices, mesh);
+    status = read_element(path, values, element, mesh, look ? &vertex_look : nullptr);
     if (!status.ok())
     {
       mesh = PolygonMesh();
       return status;
     }
   }
+  if (look)
+  {
+    make_look(header, mesh, vertex_look, *look);
+  }
   return {};
+}
+} // namespace
+
+Status read_ply(const std::string& path, PolygonMesh& mesh)
+{
+  return read(path, mesh, nullptr);
+}
+
+Status read_ply(const std::string& path, PolygonMesh& mesh, MeshLook& look)
+{
+  return read(path, mesh, &look);
 }
 
 Status write_ply(const std::string& path, const PolygonMesh& mesh)

@@ -245,7 +245,7 @@ TEST_F(TextFiles, ObjLooksOfFaces)
     "g lid\nf 1/7/1 2/0 3/x\n" // texture coordinates that do not exist
     "o ball\ng\nusemtl blue\nf 1/3 2/3 3/3\nvt 0.5 0.5\nf 1 2\n"
     "o box\ng lid\nusemtl dark red\nf 2/3/1 3/3/1 4/3/1\n");
-  ObjLook look;
+  MeshLook look;
   const Status status = read_obj(path, this->mesh, look);
   ASSERT_TRUE(status.ok()) << status.message;
   EXPECT_EQ(this->mesh.polygon_count(), 5);
@@ -315,6 +315,48 @@ TEST_F(TextFiles, PlyHeadersThatContradictThemselves)
                 this->mesh)
                 .message,
     HasSubstr("t.ply, line 13: the header has two elements vertex"));
+}
+
+TEST_F(TextFiles, PlyLooksOfFaces)
+{
+  const std::string vertices = "element vertex 4\nproperty double x\nproperty double y\n"
+                               "property double z\nproperty float nx\nproperty float ny\n"
+                               "property float nz\nproperty uchar red\nproperty uchar green\n"
+                               "property uchar blue\nproperty uchar alpha\nproperty float s\n"
+                               "property float t\n";
+  const std::string rows = "0 0 0 0 0 1 255 0 51 255 0.25 0.5\n1 0 0 0 0 1 0 0 0 0 1 0\n"
+                           "1 1 0 0 1 0 0 0 0 0 1 1\n0 1 0 0 1 0 0 0 0 0 nan 1\n";
+  const auto read = [this](const std::string& text)
+  {
+    MeshLook look;
+    const Status status = read_ply(this->folder.write("m.ply", text), this->mesh, look);
+    EXPECT_TRUE(status.ok()) << status.message;
+    return look;
+  };
+  const MeshLook by_vertex = read("ply\nformat ascii 1.0\ncomment TextureFile my wood.png\n" +
+    vertices + "element face 3\nproperty list uchar int vertex_indices\nend_header\n" + rows +
+    "3 0 1 2\n2 0 1\n4 0 1 2 3\n");
+  EXPECT_EQ(by_vertex.picture, "my wood.png");
+  EXPECT_EQ(by_vertex.material_names, std::vector<std::string>{ "texture" });
+  EXPECT_EQ(by_vertex.materials, (std::vector<Index>{ 0, 0 }));
+  EXPECT_EQ(by_vertex.parts, (std::vector<Index>{ 0, 0 }));
+  EXPECT_EQ(by_vertex.texture_ids, this->mesh.corners);
+  EXPECT_EQ(by_vertex.normal_ids, this->mesh.corners);
+  EXPECT_EQ(by_vertex.texture.row(0), Eigen::RowVector2d(0.25, 0.5));
+  EXPECT_EQ(by_vertex.texture.row(3), Eigen::RowVector2d(0, 1)); // NaN becomes 0
+  EXPECT_EQ(by_vertex.normals.row(2), Eigen::RowVector3d(0, 1, 0));
+  EXPECT_LT((by_vertex.colors.row(0) - Eigen::RowVector3d(1, 0, 0.2)).norm(), 1e-15);
+  // MeshLab stores texture coordinates per corner.
+  const MeshLook by_corner = read("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                                  "property float y\nproperty float z\nelement face 3\n"
+                                  "property list uchar int vertex_indices\n"
+                                  "property list uchar float texcoord\nend_header\n"
+                                  "0 0 0\n1 0 0\n0 1 0\n"
+                                  "3 0 1 2 6 0 0 1 0 0 1\n2 0 1 4 9 9 9 9\n3 2 1 0 0\n");
+  EXPECT_EQ(by_corner.texture_ids, (std::vector<Index>{ 0, 1, 2, -1, -1, -1 }));
+  EXPECT_EQ(by_corner.texture.row(1), Eigen::RowVector2d(1, 0));
+  EXPECT_EQ(by_corner.colors.rows() + by_corner.normals.rows(), 0);
+  EXPECT_EQ(by_corner.materials, (std::vector<Index>{ -1, -1 }));
 }
 
 TEST_F(TextFiles, StlIsWeldedAndSizedExactly)

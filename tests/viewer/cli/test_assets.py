@@ -172,12 +172,34 @@ def test_obj_files_with_missing_materials(folder):
     (folder / "bar.mtl").unlink()
     run = folder.run("rig", "bar.obj", "--handles", "auto:2", "-o", "gray.glb").is_good()
     assert "the materials of 'bar.mtl' are left out" in run.err
-    assert "materials" not in GltfFile(folder / "gray.glb").json
+    assert [material["name"] for material in GltfFile(folder / "gray.glb").json["materials"]] == ["default"]
     folder.write("out.obj", (folder / "bar.obj").read_text().replace("bar.mtl", "../secret.mtl"))
     secret = folder.path.parent / "secret.mtl"
     secret.write_text("newmtl wood")
     folder.run("rig", "out.obj", "--handles", "auto:2", "-o", "o.glb").is_refused("'../secret.mtl' is not in the folder")
     secret.unlink()
+
+
+def test_a_ply_file_keeps_its_colors_and_picture(folder):
+    vertices, faces = shapes.bar()
+    names = ("x", "y", "z", "red", "green", "blue", "u", "v")
+    lines = ["ply", "format ascii 1.0", "comment TextureFile wood.png", f"element vertex {len(vertices)}"]
+    lines += [f"property {'uchar' if name in ('red', 'green', 'blue') else 'float'} {name}" for name in names]
+    lines += [f"element face {len(faces)}", "property list uchar int vertex_indices", "end_header"]
+    lines += [f"{x} {y} {z} {int(255 * x / 6)} 0 255 {x / 6} {y}" for x, y, z in vertices]
+    lines += ["3 " + " ".join(map(str, face)) for face in faces]
+    folder.write("bar.ply", "\n".join(lines) + "\n")
+    picture = shapes.png(4, 4, lambda x, y: (50 * x, 50 * y, 0, 255))
+    folder.write("wood.png", picture)
+    folder.run("rig", "bar.ply", "--handles", "auto:3", "-o", "bar.glb").is_good()
+    file = GltfFile(folder / "bar.glb")
+    points = file.attribute(0, "POSITION")
+    red = np.floor(255 * points[:, 0] / 6) / 255
+    linear = np.where(red <= 0.04045, red / 12.92, ((red + 0.055) / 1.055) ** 2.4)
+    assert file.attribute(0, "COLOR_0") == pytest.approx(np.stack([linear, 0 * linear, 1 + 0 * linear], axis=1), abs=2e-2)
+    assert file.attribute(0, "TEXCOORD_0") == pytest.approx(np.stack([points[:, 0] / 6, 1 - points[:, 1]], axis=1), abs=1e-6)
+    texture = file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["index"]
+    assert file.view(file.json["images"][file.json["textures"][texture]["source"]]["bufferView"]) == picture
 
 
 def test_the_weights_of_the_surface(folder):
@@ -189,7 +211,7 @@ def test_the_weights_of_the_surface(folder):
 def test_refusals(folder):
     write_statue(folder)
     folder.off("cube.off", shapes.cube())
-    folder.run("rig", "cube.off", "-o", "out.glb").is_refused("cube.off", "glb")
+    folder.run("rig", "cube.off", "-o", "out.glb").is_refused("cube.off", ".glb, .gltf, .obj, .ply")
     folder.run("rig", "statue.gltf", "-o", "out.vtp").is_refused("out.vtp", "glb")
     folder.run("rig", "statue.gltf", "--handles", "bones", "-o", "out.glb").is_refused("--handles 'bones'")
     folder.run("rig", "statue.gltf", "--handles", "statue.gltf", "-o", "out.glb").is_refused("statue.gltf has no joints")

@@ -1,7 +1,7 @@
-// OBJ files as glTF documents: vertices, materials and pictures.
+// Meshes with a look as glTF documents: vertices, materials and pictures.
 #include "gltf/gltf_asset.h"
 #include "gltf/mtl_materials.h"
-#include "gltf/obj_document.h"
+#include "gltf/look_document.h"
 
 #include "support/files.h"
 
@@ -17,7 +17,7 @@ namespace
 {
 const std::string png = std::string("\x89PNG\r\n\x1a\n", 8) + "not a real picture";
 
-class ObjDocuments : public testing::Test
+class LookDocuments : public testing::Test
 {
 protected:
   test::Folder folder_;
@@ -35,17 +35,17 @@ protected:
   GltfAsset add_scene(const std::string& text)
   {
     PolygonMesh mesh;
-    ObjLook look;
+    MeshLook look;
     const Status status = read_obj(this->folder_.write("m.obj", text), mesh, look);
     EXPECT_TRUE(status.ok()) << status.message;
-    ObjTriangles triangles;
+    LookTriangles triangles;
     triangles.corners.resize(mesh.polygon_count(), 3);
     for (Index f = 0; f < mesh.polygon_count(); ++f)
     {
       triangles.corners.row(f) << 3 * f, 3 * f + 1, 3 * f + 2;
       triangles.faces.push_back(f);
     }
-    append_obj_scene(mesh, look, triangles, this->materials_, this->document_);
+    append_look_scene(mesh, look, triangles, this->materials_, this->document_);
     std::string bytes;
     EXPECT_TRUE(this->document_.to_bytes(true, bytes).ok());
     GltfAsset asset;
@@ -68,7 +68,7 @@ protected:
 };
 } // namespace
 
-TEST_F(ObjDocuments, CornersWithDifferentLooksGetDifferentVertices)
+TEST_F(LookDocuments, CornersWithDifferentLooksGetDifferentVertices)
 {
   this->add_materials("newmtl red\nKd 1 0 0\n", { "red" });
   const GltfAsset asset = this->add_scene(
@@ -85,14 +85,15 @@ TEST_F(ObjDocuments, CornersWithDifferentLooksGetDifferentVertices)
   ASSERT_EQ(front["primitives"].size(), 2u);
   EXPECT_EQ(front["primitives"][0]["attributes"], front["primitives"][1]["attributes"]);
   EXPECT_EQ(front["primitives"][0]["material"], 0);
-  EXPECT_FALSE(front["primitives"][1].contains("material"));
+  EXPECT_EQ(front["primitives"][1]["material"], 1);
+  EXPECT_EQ(json["materials"][1]["name"], "default");
   EXPECT_FALSE(json["meshes"][1]["primitives"][0]["attributes"].contains("TEXCOORD_0"));
   const GltfNumbers texture = this->attribute(0, "TEXCOORD_0", TINYGLTF_TYPE_VEC2);
   EXPECT_EQ(texture.row(3), Eigen::RowVector2d(0.5, 0.75)); // the origin is at the upper left
   EXPECT_EQ(this->attribute(1, "NORMAL", TINYGLTF_TYPE_VEC3).row(2), Eigen::RowVector3d(0, 1, 0));
 }
 
-TEST_F(ObjDocuments, PartsWithoutMaterialsGetASkin)
+TEST_F(LookDocuments, PartsWithoutMaterialsGetASkin)
 {
   GltfAsset asset = this->add_scene("v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nvn 0 0 1\n"
                                     "o a\nf 1//1 2//1 3//1\no b\nf 1//1 3//1 4//1\n"
@@ -113,7 +114,7 @@ TEST_F(ObjDocuments, PartsWithoutMaterialsGetASkin)
   }
 }
 
-TEST_F(ObjDocuments, AMeshFarFromTheOriginKeepsItsDetail)
+TEST_F(LookDocuments, AMeshFarFromTheOriginKeepsItsDetail)
 {
   const GltfAsset asset = this->add_scene(
     "v 1000000 2000000 0\nv 1000000.015625 2000000 0\nv 1000000 2000000.03125 0.001\nf 1 2 3\n");
@@ -123,7 +124,7 @@ TEST_F(ObjDocuments, AMeshFarFromTheOriginKeepsItsDetail)
     1e-9);
 }
 
-TEST_F(ObjDocuments, VertexColorsAreLinear)
+TEST_F(LookDocuments, VertexColorsAreLinear)
 {
   this->add_scene("v 0 0 0 1 0.5 0\nv 1 0 0 0.02 0 2\nv 1 1 0 0 0 0\nf 1 2 3\n");
   const GltfNumbers colors = this->attribute(0, "COLOR_0", TINYGLTF_TYPE_VEC3);
@@ -133,7 +134,7 @@ TEST_F(ObjDocuments, VertexColorsAreLinear)
   EXPECT_EQ(colors(1, 2), 1.0);
 }
 
-TEST_F(ObjDocuments, MaterialsBecomeThoseOfGltf)
+TEST_F(LookDocuments, MaterialsBecomeThoseOfGltf)
 {
   this->folder_.write("wood.png", png);
   this->folder_.write("bark.png", png + "2");
@@ -166,7 +167,7 @@ TEST_F(ObjDocuments, MaterialsBecomeThoseOfGltf)
   EXPECT_EQ(json["images"].size(), 2u);
 }
 
-TEST_F(ObjDocuments, PicturesThatCannotBeReadAreNamed)
+TEST_F(LookDocuments, PicturesThatCannotBeReadAreNamed)
 {
   this->folder_.write("a.tga", "0000000000000000");
   this->add_materials("newmtl m\nmap_Kd gone.png\nmap_Ke a.tga\n", { "m" });

@@ -1,4 +1,4 @@
-#include "gltf/obj_document.h"
+#include "gltf/look_document.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@ namespace bindpose
 namespace
 {
 using Json = GltfDocument::Json;
-using Texture = decltype(ObjLook::texture);
+using Texture = decltype(MeshLook::texture);
 
 /// Convert a value of sRGB to a linear value (IEC 61966-2-1).
 double to_linear(double value)
@@ -30,6 +30,15 @@ Vec3 translation_of(const Points& points)
   return center.norm() > far * box.diagonal() ? center : Vec3(Vec3::Zero());
 }
 
+/// Append a material without color, for polygons that have none.
+int append_default_material(GltfDocument& document)
+{
+  return document.append("materials",
+    { { "name", "default" },
+      { "pbrMetallicRoughness", { { "metallicFactor", 0.0 }, { "roughnessFactor", 0.9 } } },
+      { "doubleSided", true } });
+}
+
 bool has_picture(const Json& material)
 {
   return material.contains("normalTexture") || material.contains("emissiveTexture") ||
@@ -40,7 +49,7 @@ bool has_picture(const Json& material)
 class PartWriter
 {
 public:
-  PartWriter(const PolygonMesh& mesh, const ObjLook& look) : mesh_(mesh), look_(look) {}
+  PartWriter(const PolygonMesh& mesh, const MeshLook& look) : mesh_(mesh), look_(look) {}
 
   void add(const Triangles& corners, Index triangle, Index material)
   {
@@ -61,14 +70,16 @@ public:
   }
 
   /// Append the mesh and return its id.
+  /// @param materials ids by material of the look; the last one is that of polygons without
+  /// material
   int append(const std::string& name, const Vec3& translation, const std::vector<int>& materials,
     GltfDocument& document) const
   {
     const bool has_pictures = std::any_of(this->indices_.begin(), this->indices_.end(),
       [&](const auto& entry)
       {
-        const int id = entry.first < 0 ? -1 : materials[entry.first];
-        return id >= 0 && has_picture(document.list("materials")[id]);
+        const int id = entry.first < 0 ? materials.back() : materials[entry.first];
+        return has_picture(document.list("materials")[id]);
       });
     const Json attributes = this->append_attributes(translation, has_pictures, document);
     Json primitives = Json::array();
@@ -76,10 +87,7 @@ public:
     {
       Json primitive{ { "attributes", attributes },
         { "indices", document.append_accessor(indices, 1, GltfDocument::element_array_buffer) } };
-      if (material >= 0 && materials[material] >= 0)
-      {
-        primitive["material"] = materials[material];
-      }
+      primitive["material"] = material < 0 ? materials.back() : materials[material];
       primitives.push_back(std::move(primitive));
     }
     return document.append("meshes", { { "name", name }, { "primitives", std::move(primitives) } });
@@ -133,7 +141,7 @@ private:
   }
 
   const PolygonMesh& mesh_;
-  const ObjLook& look_;
+  const MeshLook& look_;
   /// Vertex, texture coordinates and normal of each vertex.
   std::vector<std::array<Index, 3>> vertices_;
   std::map<std::array<Index, 3>, std::uint32_t> ids_;
@@ -141,15 +149,25 @@ private:
 };
 } // namespace
 
-void append_obj_scene(const PolygonMesh& mesh, const ObjLook& look, const ObjTriangles& triangles,
-  const std::map<std::string, int>& materials, GltfDocument& document)
+void append_look_scene(const PolygonMesh& mesh, const MeshLook& look,
+  const LookTriangles& triangles, const std::map<std::string, int>& materials,
+  GltfDocument& document)
 {
-  std::vector<int> material_ids; // by material of the look
+  std::vector<int> material_ids; // by material of the look, then that of polygons without one
   for (const std::string& name : look.material_names)
   {
     const auto entry = materials.find(name);
     material_ids.push_back(entry == materials.end() ? -1 : entry->second);
   }
+  material_ids.push_back(-1);
+  const bool needs_default = std::any_of(triangles.faces.begin(), triangles.faces.end(),
+    [&](Index face)
+    {
+      const Index material = look.materials[face];
+      return (material < 0 ? material_ids.back() : material_ids[material]) < 0;
+    });
+  const int default_material = needs_default ? append_default_material(document) : -1;
+  std::replace(material_ids.begin(), material_ids.end(), -1, default_material);
   std::vector<PartWriter> parts(look.part_names.size(), PartWriter(mesh, look));
   for (Index t = 0; t < triangles.corners.rows(); ++t)
   {

@@ -34,6 +34,7 @@ libqt5opengl5-dev:the_viewer
 libcli11-dev:command_line_options
 libpng-dev:pictures
 libtiff-dev:pictures
+libassimp-dev:reads_FBX,_Collada,_3DS_and_3MF_files
 xvfb:rendering_without_a_display
 xauth:rendering_without_a_display
 libgl1-mesa-dri:rendering_without_a_graphics_card

@@ -45,7 +45,7 @@ Status vtkAssetReader::Execute(
   const Phase phase(context, "read");
   const std::string path = this->FileName ? this->FileName : "";
   GltfAsset asset;
-  Status status = read_asset_file(path, asset);
+  Status status = read_asset_file(context, path, asset);
   if (!status.ok())
   {
     return status;

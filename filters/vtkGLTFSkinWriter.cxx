@@ -283,7 +283,7 @@ Status write_asset(ExecutionContext& context, const std::string& path,
   const std::string& asset_path, const GltfSkin& skin, const GltfOptions& options)
 {
   GltfAsset asset;
-  Status status = read_asset_file(asset_path, asset);
+  Status status = read_asset_file(context, asset_path, asset);
   const Status checked = status.ok() ? check_asset_points(asset_path, asset, skin.points) : status;
   if (!checked.ok())
   {

@@ -5,6 +5,7 @@ option(BINDPOSE_PERMISSIVE "Leave out GPL and AGPL parts (bindpose-mesher, CHOLM
 option(BINDPOSE_WITH_CHOLMOD "Factor with CHOLMOD's supernodal solver when found" ON)
 option(BINDPOSE_WITH_MESHER "Build bindpose-mesher (CGAL, TetGen) when both are found" ON)
 option(BINDPOSE_WITH_OPENVDB "Write .vdb files when OpenVDB is found" ON)
+option(BINDPOSE_WITH_ASSIMP "Read .fbx, .dae, .3ds and .3mf files when assimp is found" ON)
 
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(TBB REQUIRED)

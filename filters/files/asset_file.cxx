@@ -4,6 +4,7 @@
 #include "gltf/gltf_model.h"
 #include "gltf/mtl_materials.h"
 #include "gltf/look_document.h"
+#include "guarded_import.h"
 #include "io/obj.h"
 #include "io/ply.h"
 #include "io/text_scanner.h"
@@ -134,15 +135,25 @@ Status read_look_asset(const std::string& path, GltfAsset& asset)
 }
 } // namespace
 
-Status read_asset_file(const std::string& path, GltfAsset& asset)
+Status read_asset_file(ExecutionContext& context, const std::string& path, GltfAsset& asset)
 {
-  const Status status = check_extension(path, asset_extensions());
+  Status status = check_extension(path, asset_extensions());
   if (!status.ok())
   {
     return status;
   }
-  return is_listed(file_extension(path), "obj ply") ? read_look_asset(path, asset)
-                                                    : asset.read(path);
+  const std::string extension = file_extension(path);
+  if (is_listed(extension, "obj ply"))
+  {
+    return read_look_asset(path, asset);
+  }
+  if (is_listed(extension, "glb gltf"))
+  {
+    return asset.read(path);
+  }
+  std::string bytes;
+  status = import_guarded(context, path, bytes);
+  return status.ok() ? asset.read_bytes(path, std::move(bytes)) : status;
 }
 
 } // namespace bindpose

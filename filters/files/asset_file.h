@@ -1,6 +1,7 @@
 #ifndef asset_file_h
 #define asset_file_h
 
+#include "base/execution.h"
 #include "gltf/gltf_asset.h"
 
 #include <string>
@@ -11,13 +12,14 @@ namespace bindpose
 /// Extensions of the files that read_asset_file() reads.
 inline const char* asset_extensions()
 {
-  return "glb gltf obj ply";
+  return "glb gltf obj ply fbx dae 3ds 3mf";
 }
 
 /// Read a file that can get a new skin. A file of another format than glTF is converted to glTF:
 /// OBJ with texture coordinates, normals, groups, vertex colors, and the materials and pictures of
-/// its .mtl files; PLY with texture coordinates, normals, vertex colors and its picture.
-Status read_asset_file(const std::string& path, GltfAsset& asset);
+/// its .mtl files; PLY with texture coordinates, normals, vertex colors and its picture; FBX,
+/// Collada (DAE), 3DS and 3MF by import_guarded().
+Status read_asset_file(ExecutionContext& context, const std::string& path, GltfAsset& asset);
 
 } // namespace bindpose
 

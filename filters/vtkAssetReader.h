@@ -1,12 +1,14 @@
 /**
  * @class   vtkAssetReader
- * @brief   reads the triangles of all meshes of a glTF, OBJ or PLY file, for a new rig
+ * @brief   reads the triangles of all meshes of a file, for a new rig
  *
  * Weights for the points of this mesh can be written into a copy of the file by vtkGLTFSkinWriter
  * (AssetFileName). The copy keeps materials, textures, cameras, animations and everything else. The
  * copy of another format is a glTF file. It has the texture coordinates, normals and vertex colors
  * of the file. An OBJ file also keeps its groups (one mesh each), and the materials and PNG or JPEG
- * pictures of its .mtl files; a PLY file keeps its picture (comment TextureFile). Materials and
+ * pictures of its .mtl files; a PLY file keeps its picture (comment TextureFile).
+ * FBX, Collada, 3DS and 3MF files are converted by assimp, in the helper process bindpose-importer.
+ * Materials and
  * pictures that cannot be read are left out, with a warning; those outside of the folder are
  * refused.
  *
@@ -43,7 +45,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /// Path of the file: .glb, .gltf, .obj or .ply. Default: none.
+  /// Path of the file: .glb, .gltf, .obj, .ply, .fbx, .dae, .3ds or .3mf. Default: none.
   vtkSetFilePathMacro(FileName);
   vtkGetFilePathMacro(FileName);
   ///@}

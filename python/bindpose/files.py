@@ -57,12 +57,12 @@ class Asset(NamedTuple):
 
 
 def read_asset(path: Path) -> Asset:
-    """Read the triangles of all meshes of a glTF, OBJ or PLY file, for a new rig of the whole file.
+    """Read the triangles of all meshes of a glTF, OBJ, PLY, FBX, Collada, 3DS or 3MF file, for a new rig.
 
     Parameters
     ----------
     path : str or path-like
-        .glb, .gltf, .obj with its .mtl files and pictures, or .ply.
+        .glb, .gltf, .obj with its .mtl files and pictures, .ply, .fbx, .dae, .3ds or .3mf.
 
     Returns
     -------

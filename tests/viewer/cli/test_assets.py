@@ -202,6 +202,76 @@ def test_a_ply_file_keeps_its_colors_and_picture(folder):
     assert file.view(file.json["images"][file.json["textures"][texture]["source"]]["bufferView"]) == picture
 
 
+COLLADA = """<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit meter="0.5"/><up_axis>Z_UP</up_axis></asset>
+<library_images><image id="picture"><init_from>wood.png</init_from></image></library_images>
+<library_effects><effect id="effect"><profile_COMMON>
+<newparam sid="surface"><surface type="2D"><init_from>picture</init_from></surface></newparam>
+<newparam sid="sampler"><sampler2D><source>surface</source></sampler2D></newparam>
+<technique sid="common"><phong><emission><color>0 0 0 1</color></emission>
+<diffuse><texture texture="sampler" texcoord="UV"/></diffuse></phong></technique></profile_COMMON></effect></library_effects>
+<library_materials><material id="wood" name="wood"><instance_effect url="#effect"/></material></library_materials>
+<library_geometries><geometry id="bar"><mesh>
+<source id="points"><float_array id="p" count="{3n}">{points}</float_array><technique_common>
+<accessor source="#p" count="{n}" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source>
+<source id="texture"><float_array id="t" count="{2n}">{texture}</float_array><technique_common>
+<accessor source="#t" count="{n}" stride="2"><param name="S" type="float"/><param name="T" type="float"/></accessor>
+</technique_common></source>
+<vertices id="vertices"><input semantic="POSITION" source="#points"/></vertices>
+<triangles count="{faces}" material="m"><input semantic="VERTEX" source="#vertices" offset="0"/>
+<input semantic="TEXCOORD" source="#texture" offset="0" set="0"/><p>{corners}</p></triangles>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="scene"><node id="arm" name="arm"><translate>0 0 2</translate>
+<instance_geometry url="#bar"><bind_material><technique_common><instance_material symbol="m" target="#wood"/>
+</technique_common></bind_material></instance_geometry></node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#scene"/></scene></COLLADA>
+"""
+
+
+def write_collada(folder):
+    """Write a bar with a texture, in units of half a meter and with z up."""
+    vertices, faces = shapes.bar()
+    text = COLLADA
+    for key, value in {"3n": 3 * len(vertices), "2n": 2 * len(vertices), "n": len(vertices), "faces": len(faces),
+                       "points": " ".join(f"{x} {y} {z}" for x, y, z in vertices),
+                       "texture": " ".join(f"{x / 6} {y}" for x, y, _ in vertices),
+                       "corners": " ".join(str(v) for face in faces for v in face)}.items():
+        text = text.replace("{" + key + "}", str(value))
+    folder.write("bar.dae", text)
+    picture = shapes.png(4, 4, lambda x, y: (50 * x, 50 * y, 0, 255))
+    folder.write("wood.png", picture)
+    return picture
+
+
+def test_a_collada_file_keeps_its_look(folder):
+    picture = write_collada(folder)
+    run = folder.run("rig", "bar.dae", "--handles", "auto:3", "-o", "bar.glb", "--report", "-").is_good()
+    assert run.report["counts"]["triangles"] == len(shapes.bar()[1])
+    file = GltfFile(folder / "bar.glb")
+    mesh = next(node["mesh"] for node in file.json["nodes"] if "mesh" in node)
+    points, texture = file.attribute(mesh, "POSITION"), file.attribute(mesh, "TEXCOORD_0")
+    assert points.max(axis=0) - points.min(axis=0) == pytest.approx([6, 1, 1], abs=1e-5)
+    assert texture == pytest.approx(np.stack([points[:, 0] / 6, 1 - points[:, 1]], axis=1), abs=1e-5)
+    material = file.json["materials"][file.json["meshes"][mesh]["primitives"][0]["material"]]
+    source = file.json["textures"][material["pbrMetallicRoughness"]["baseColorTexture"]["index"]]["source"]
+    assert file.view(file.json["images"][source]["bufferView"]) == picture
+    # The scene is in meters, with y up.
+    handles = [node["extras"]["bindpose"]["head"] for node in file.json["nodes"] if "extras" in node]
+    assert all(-0.01 <= x <= 3.01 and 0.99 <= y <= 1.51 and -0.51 <= z <= 0.01 for x, y, z in handles)
+
+
+def test_damaged_files_of_the_importer(folder):
+    write_collada(folder)
+    folder.write("half.dae", (folder / "bar.dae").read_text()[:2000])
+    folder.run("rig", "half.dae", "-o", "o.glb").is_refused("half.dae cannot be read")
+    folder.write("text.fbx", "; FBX 7.4.0 project file\n" + 1000 * "{")
+    folder.run("rig", "text.fbx", "-o", "o.glb").is_refused("text.fbx cannot be read")
+    folder.run("rig", "none.3ds", "-o", "o.glb").is_refused("none.3ds cannot be read: there is no such file")
+    folder.run("rig", "bar.dae", "-o", "o.glb", environment={"BINDPOSE_IMPORTER": "/none"}).is_refused("libassimp-dev")
+
+
 def test_the_weights_of_the_surface(folder):
     write_statue(folder)
     folder.run("rig", "statue.gltf", "--handles", "auto:3", "--domain", "surface", "-o", "out.glb").is_good()
@@ -211,7 +281,7 @@ def test_the_weights_of_the_surface(folder):
 def test_refusals(folder):
     write_statue(folder)
     folder.off("cube.off", shapes.cube())
-    folder.run("rig", "cube.off", "-o", "out.glb").is_refused("cube.off", ".glb, .gltf, .obj, .ply")
+    folder.run("rig", "cube.off", "-o", "out.glb").is_refused("cube.off", ".glb, .gltf, .obj, .ply, .fbx, .dae, .3ds, .3mf")
     folder.run("rig", "statue.gltf", "-o", "out.vtp").is_refused("out.vtp", "glb")
     folder.run("rig", "statue.gltf", "--handles", "bones", "-o", "out.glb").is_refused("--handles 'bones'")
     folder.run("rig", "statue.gltf", "--handles", "statue.gltf", "-o", "out.glb").is_refused("statue.gltf has no joints")

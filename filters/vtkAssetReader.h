@@ -6,9 +6,8 @@
  * (AssetFileName). The copy keeps materials, textures, cameras, animations and everything else. The
  * copy of another format is a glTF file. It has the texture coordinates, normals and vertex colors
  * of the file. An OBJ file also keeps its groups (one mesh each), and the materials and PNG or JPEG
- * pictures of its .mtl files; a PLY file keeps its picture (comment TextureFile).
- * FBX, Collada, 3DS and 3MF files are converted by assimp, in the helper process bindpose-importer.
- * Materials and
+ * pictures of its .mtl files; a PLY file keeps its picture (comment TextureFile). FBX, Collada, 3DS
+ * and 3MF files are converted by assimp, in the helper process bindpose-importer. Materials and
  * pictures that cannot be read are left out, with a warning; those outside of the folder are
  * refused.
  *

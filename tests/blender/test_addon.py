@@ -1,0 +1,65 @@
+"""The Blender add-on: weights in vertex groups, locked groups, modifiers, a skeleton, errors."""
+
+import json
+import os
+import pathlib
+import subprocess
+
+import pytest
+
+HERE = pathlib.Path(__file__).resolve().parent
+ADDON = HERE.parents[1] / "examples" / "blender" / "bindpose_addon.py"
+
+
+@pytest.fixture(scope="module")
+def found(tmp_path_factory):
+    """What Blender found; see addon_in_blender.py."""
+    result = tmp_path_factory.mktemp("blender") / "result.json"
+    done = subprocess.run(
+        [os.environ["BINDPOSE_BLENDER"], "--background", "--factory-startup", "--python-exit-code", "1", "--python",
+         HERE / "addon_in_blender.py", "--", ADDON, os.environ["BINDPOSE_PROGRAM"], result],
+        capture_output=True, text=True, timeout=300, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return json.loads(result.read_text())
+
+
+def test_every_vertex_has_weights_that_sum_to_one(found):
+    assert found["result"] == ["FINISHED"] and found["parent"] == "rig" and found["modifiers"] == ["ARMATURE"]
+    for (x, _, _), weights in zip(found["points"], found["weights"]):
+        assert set(weights) <= {"lower", "upper"} and sum(weights.values()) == pytest.approx(1, abs=1e-3)
+        assert all(0 <= weight <= 1 + 1e-6 for weight in weights.values())
+        if x < 2:
+            assert weights.get("lower", 0) > weights.get("upper", 0)
+        if x > 4:
+            assert weights.get("upper", 0) > weights.get("lower", 0)
+
+
+def test_vertices_at_the_same_place_get_equal_weights(found):
+    places = {}
+    for point, weights in zip(found["points"], found["weights"]):
+        places.setdefault(tuple(round(value, 6) for value in point), []).append(weights)
+    twice = [rows for rows in places.values() if len(rows) == 2]
+    assert len(twice) == 8
+    for first, second in twice:
+        assert first == pytest.approx(second, abs=1e-6)
+
+
+def test_a_locked_group_keeps_its_weights(found):
+    for weights in found["locked"]:
+        assert weights["upper"] == pytest.approx(0.25) and weights["lower"] == pytest.approx(0.75, abs=1e-3)
+
+
+def test_a_mirror_modifier_completes_the_shape(found):
+    rows = [weights for weights in found["mirrored"] if weights]
+    assert len(rows) > 0 and all(sum(weights.values()) == pytest.approx(1, abs=1e-3) for weights in rows)
+
+
+def test_a_skeleton_lies_in_the_shape(found):
+    assert found["skeleton"] == ["FINISHED"] and len(found["bones"]) >= 1
+    for ends in found["bones"]:
+        for x, y, z in ends:
+            assert -0.01 <= x <= 6.01 and y * y + (z - 0.1) ** 2 <= 0.26
+
+
+def test_errors_name_the_object(found):
+    assert "the mesh 'empty' has no faces" in found["error"]

@@ -16,9 +16,10 @@ def found(tmp_path_factory):
     """What Blender found; see addon_in_blender.py."""
     result = tmp_path_factory.mktemp("blender") / "result.json"
     done = subprocess.run(
-        [os.environ["BINDPOSE_BLENDER"], "--background", "--factory-startup", "--python-exit-code", "1", "--python",
-         HERE / "addon_in_blender.py", "--", ADDON, os.environ["BINDPOSE_PROGRAM"], result],
-        capture_output=True, text=True, timeout=300, check=False)
+        ["blender", "-b", "--factory-startup", "--python-exit-code", "3", "--python", HERE / "addon_in_blender.py", "--",
+         ADDON, os.environ["BINDPOSE_PROGRAM"], result],
+        capture_output=True, text=True, timeout=500, check=False,
+        env={key: value for key, value in os.environ.items() if key != "PYTHONPATH"})
     assert done.returncode == 0, done.stdout + done.stderr
     return json.loads(result.read_text())
 

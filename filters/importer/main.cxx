@@ -11,6 +11,7 @@
 #include <assimp/Importer.hpp>
 #include <assimp/ProgressHandler.hpp>
 #include <assimp/postprocess.h>
+#include <assimp/scene.h>
 
 #include <cstdio>
 #include <exception>

@@ -56,7 +56,7 @@ public:
   void append(const aiMaterial& from)
   {
     Json material{ { "name", to_text(from.GetName()) } };
-    Json& surface = material["pbrMetallicRoughness"];
+    Json surface;
     const Json picture = this->texture(from, { aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE });
     surface["baseColorFactor"] = base_color(from, !picture.is_null());
     set(surface, "baseColorTexture", picture);
@@ -74,6 +74,8 @@ public:
       const double exponent = std::isfinite(shininess) ? std::max<double>(0.0, shininess) : 0.0;
       surface["roughnessFactor"] = std::pow(2.0 / (exponent + 2.0), 0.25);
     }
+    const bool is_transparent = surface["baseColorFactor"][3] < 1.0;
+    material["pbrMetallicRoughness"] = std::move(surface);
     set(material, "normalTexture", this->texture(from, { aiTextureType_NORMALS }));
     const Json light =
       this->texture(from, { aiTextureType_EMISSION_COLOR, aiTextureType_EMISSIVE });
@@ -86,7 +88,7 @@ public:
       material["emissiveFactor"] = { is_dark ? 1.0 : clamped(emission.r),
         is_dark ? 1.0 : clamped(emission.g), is_dark ? 1.0 : clamped(emission.b) };
     }
-    if (surface["baseColorFactor"][3] < 1.0 || from.GetTextureCount(aiTextureType_OPACITY) > 0)
+    if (is_transparent || from.GetTextureCount(aiTextureType_OPACITY) > 0)
     {
       material["alphaMode"] = "BLEND";
     }
@@ -128,19 +130,12 @@ private:
     for (const aiTextureType type : types)
     {
       aiString path;
-      unsigned int coordinates = 0;
-      if (from.GetTextureCount(type) > 0 &&
-        from.GetTexture(type, 0, &path, nullptr, &coordinates) == aiReturn_SUCCESS)
+      if (from.GetTextureCount(type) > 0 && from.GetTexture(type, 0, &path) == aiReturn_SUCCESS)
       {
         const int id = this->texture(path);
         if (id >= 0)
         {
-          Json texture{ { "index", id } };
-          if (coordinates > 0)
-          {
-            texture["texCoord"] = coordinates;
-          }
-          return texture;
+          return Json{ { "index", id } };
         }
       }
     }
@@ -287,7 +282,7 @@ private:
     for (unsigned int k = 0; k < node.mNumMeshes; ++k)
     {
       const aiMesh* mesh = this->scene_.mMeshes[node.mMeshes[k]];
-      const bool is_used = mesh->mPrimitiveTypes == aiPrimitiveType_TRIANGLE && mesh->mNumFaces > 0;
+      const bool is_used = (mesh->mPrimitiveTypes & aiPrimitiveType_TRIANGLE) != 0;
       if (is_used)
       {
         (mesh->HasBones() ? skinned : rigid).push_back(mesh);
@@ -384,6 +379,11 @@ private:
       texture.col(1) = 1.0 - texture.col(1).array(); // glTF's origin is at the upper left
       attributes["TEXCOORD_" + std::to_string(k)] = this->document_.append_rows(texture);
     }
+    if (mesh.GetNumUVChannels() == 0 && this->has_picture(mesh.mMaterialIndex))
+    {
+      // glTF requires coordinates for a material with a picture.
+      attributes["TEXCOORD_0"] = this->document_.append_rows(Column::Zero(count, 2).eval());
+    }
     if (mesh.HasVertexColors(0))
     {
       Column colors(count, 4);
@@ -402,12 +402,22 @@ private:
     for (unsigned int f = 0; f < mesh.mNumFaces; ++f)
     {
       const aiFace& face = mesh.mFaces[f];
-      corners.insert(corners.end(), face.mIndices, face.mIndices + face.mNumIndices);
+      if (face.mNumIndices == 3)
+      {
+        corners.insert(corners.end(), face.mIndices, face.mIndices + 3);
+      }
     }
     const int indices =
       this->document_.append_accessor(corners, 1, GltfDocument::element_array_buffer);
     return { { "attributes", std::move(attributes) }, { "indices", indices },
       { "material", mesh.mMaterialIndex } };
+  }
+
+  bool has_picture(unsigned int material) const
+  {
+    const Json& json = this->document_.json()["materials"][material];
+    return json.contains("normalTexture") || json.contains("emissiveTexture") ||
+      json["pbrMetallicRoughness"].contains("baseColorTexture");
   }
 
   static Points to_points(const aiVector3D* vectors, Index count)

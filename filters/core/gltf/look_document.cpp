@@ -114,6 +114,10 @@ private:
         texture.row(v) << this->look_.texture(texture_id, 0),
           1.0 - this->look_.texture(texture_id, 1);
       }
+      if (!fits_in_float(texture.row(v)))
+      {
+        texture.row(v).setZero();
+      }
       const Vec3 normal = normal_id < 0
         ? Vec3(Vec3::Zero())
         : Vec3(this->look_.normals.row(normal_id).transpose().stableNormalized());

@@ -24,10 +24,10 @@ struct LookTriangles
 /// Append a scene with one node and one mesh per part of a look, and one primitive per material.
 /// The corners of faces that share vertex, texture coordinates and normal share a vertex of the
 /// document. A part whose corners do not all have a normal gets none, and corners without texture
-/// coordinates get (0, 0). Colors are converted from sRGB to linear values, as glTF requires. If
-/// the mesh is far from the origin, its center is the translation of the nodes, because glTF stores
-/// coordinates as floats. Polygons without a material get a gray one, because the default material
-/// of glTF is a metal.
+/// coordinates, or with coordinates that are not finite floats, get (0, 0). Colors are converted
+/// from sRGB to linear values, as glTF requires. If the mesh is far from the origin, its center is
+/// the translation of the nodes, because glTF stores coordinates as floats. Polygons without a
+/// material get a gray one, because the default material of glTF is a metal.
 /// @param materials id of a material in the document, by its name in the look
 void append_look_scene(const PolygonMesh& mesh, const MeshLook& look,
   const LookTriangles& triangles, const std::map<std::string, int>& materials,

@@ -114,6 +114,14 @@ TEST_F(LookDocuments, PartsWithoutMaterialsGetASkin)
   }
 }
 
+TEST_F(LookDocuments, TextureCoordinatesThatAreNoFloatsAreZero)
+{
+  this->add_scene("v 0 0 0\nv 2 0 0\nv 2 2 0\nvt 0.5 nan\nvt 1e300 0\nvt 0.5 0.25\n"
+                  "f 1/1 2/2 3/3\n");
+  const GltfNumbers texture = this->attribute(0, "TEXCOORD_0", TINYGLTF_TYPE_VEC2);
+  EXPECT_EQ(texture, (GltfNumbers(3, 2) << 0, 0, 0, 0, 0.5, 0.75).finished());
+}
+
 TEST_F(LookDocuments, AMeshFarFromTheOriginKeepsItsDetail)
 {
   const GltfAsset asset = this->add_scene(

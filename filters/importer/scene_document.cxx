@@ -440,7 +440,7 @@ private:
   /// joint.
   static GltfWeights to_weights(const aiMesh& mesh, const Skin& skin)
   {
-    std::vector<std::vector<std::pair<double, Index>>> rows(mesh.mNumVertices);
+    std::vector<std::vector<GltfInfluence>> rows(mesh.mNumVertices);
     for (unsigned int b = 0; b < mesh.mNumBones; ++b)
     {
       const aiBone& bone = *mesh.mBones[b];
@@ -451,44 +451,29 @@ private:
         if (weight.mVertexId < mesh.mNumVertices && weight.mWeight > 0 &&
           std::isfinite(weight.mWeight))
         {
-          rows[weight.mVertexId].emplace_back(weight.mWeight, joint->second);
+          rows[weight.mVertexId].push_back({ weight.mWeight, joint->second });
         }
       }
     }
-    GltfWeights packed;
-    packed.joint_count = static_cast<Index>(skin.nodes.size());
-    std::size_t longest = 1;
     for (auto& row : rows)
     {
       if (row.empty())
       {
-        row.emplace_back(1.0, 0);
+        row.push_back({ 1.0, 0 });
       }
-      std::stable_sort(
-        row.begin(), row.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-      longest = std::max(longest, row.size());
-    }
-    packed.weights_per_vertex = static_cast<Index>((longest + 3) / 4 * 4);
-    packed.joints.assign(rows.size() * static_cast<std::size_t>(packed.weights_per_vertex), 0);
-    packed.weights.assign(packed.joints.size(), 0.0F);
-    for (std::size_t v = 0; v < rows.size(); ++v)
-    {
-      const std::size_t first = v * static_cast<std::size_t>(packed.weights_per_vertex);
+      std::stable_sort(row.begin(), row.end(),
+        [](const GltfInfluence& a, const GltfInfluence& b) { return a.weight > b.weight; });
       double sum = 0.0;
-      for (const auto& influence : rows[v])
+      for (const GltfInfluence& influence : row)
       {
-        sum += influence.first;
+        sum += influence.weight;
       }
-      float others = 0.0F;
-      for (std::size_t k = rows[v].size(); k-- > 0;)
+      for (GltfInfluence& influence : row)
       {
-        packed.joints[first + k] = static_cast<std::uint16_t>(rows[v][k].second);
-        packed.weights[first + k] =
-          k == 0 ? 1.0F - others : static_cast<float>(rows[v][k].first / sum);
-        others += packed.weights[first + k];
+        influence.weight /= sum;
       }
     }
-    return packed;
+    return pack_influences(rows, static_cast<Index>(skin.nodes.size()));
   }
 
   // ---- Animations ------------------------------------------------------------------------------

@@ -222,9 +222,12 @@ void GltfAsset::report_losses(bool keeps_joints, Status& status) const
   };
   std::set<int> kept; // nodes that move the joints of the new skin
   with_ancestors(this->common_mover(), kept);
-  for (const int node : this->meshes_.skin_joints.nodes)
+  if (keeps_joints)
   {
-    with_ancestors(keeps_joints ? node : -1, kept);
+    for (const int node : this->meshes_.skin_joints.nodes)
+    {
+      with_ancestors(node, kept);
+    }
   }
   std::set<int> lost;
   for (const auto& [mesh, movers] : this->meshes_.movers)
@@ -338,14 +341,15 @@ Status GltfAsset::replace_skins(ExecutionContext& context, GltfSkin& skin, Index
   {
     nodes = this->keep_joints(*own, skin);
   }
-  std::vector<Eigen::Affine3d> exact_maps, stored_maps;
+  std::vector<Eigen::Affine3d> exact_maps;
   for (const GltfJoint& joint : skin.joints)
   {
     exact_maps.push_back(joint.posed);
   }
-  const std::vector<Trs> local_transforms = local_maps(skin.joints, exact_maps, stored_maps);
+  std::vector<Eigen::Affine3d> stored_maps = exact_maps; // nodes that are kept are exact
   if (!own)
   {
+    const std::vector<Trs> local_transforms = local_maps(skin.joints, exact_maps, stored_maps);
     nodes = this->add_skeleton(skin.joints, local_transforms, packed.rest_joint);
   }
   this->attach_skin(skin.joints, packed, nodes);
@@ -360,8 +364,7 @@ Status GltfAsset::replace_skins(ExecutionContext& context, GltfSkin& skin, Index
   report.set("counts.joints", skin.joints.size());
   report.set("kept_joints", own ? "yes" : "no");
   report_weights(packed, status);
-  report.set("pose_error",
-    largest_pose_error(stored, exact_maps, own ? exact_maps : stored_maps) / diagonal);
+  report.set("pose_error", largest_pose_error(stored, exact_maps, stored_maps) / diagonal);
   if (!skin.frames.empty())
   {
     double error = 0.0;

@@ -12,19 +12,13 @@ namespace
 constexpr float smallest_weight = 0x1p-24F;
 constexpr double row_sum_tolerance = 1e-6; // tolerance of the row sums of weights
 
-struct Influence
-{
-  double weight;
-  Index joint;
-};
-
 /// Return the influences that the file stores for one vertex. Their weights are at least 0 and sum
 /// to one, including the weight of the joint "rest".
-std::vector<Influence> influences_of(
+std::vector<GltfInfluence> influences_of(
   const Weights& weights, Index v, Index maximum_influences, GltfWeights& packed)
 {
   const auto joints = weights.cols();
-  std::vector<Influence> row;
+  std::vector<GltfInfluence> row;
   double missing_weight = 1.0;
   bool changed = false;
   for (Index j = 0; j < joints; ++j)
@@ -45,7 +39,7 @@ std::vector<Influence> influences_of(
     row.push_back({ missing_weight, joints });
   }
   std::stable_sort(row.begin(), row.end(),
-    [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
+    [](const GltfInfluence& a, const GltfInfluence& b) { return a.weight > b.weight; });
   if (maximum_influences > 0 && static_cast<Index>(row.size()) > maximum_influences)
   {
     double dropped_sum = 0.0;
@@ -58,7 +52,7 @@ std::vector<Influence> influences_of(
     row.resize(static_cast<std::size_t>(maximum_influences));
   }
   double sum = 0.0;
-  for (const Influence& influence : row)
+  for (const GltfInfluence& influence : row)
   {
     sum += influence.weight;
   }
@@ -66,7 +60,7 @@ std::vector<Influence> influences_of(
   {
     return { { 1.0, joints } };
   }
-  for (Influence& influence : row)
+  for (GltfInfluence& influence : row)
   {
     influence.weight /= sum;
   }
@@ -74,35 +68,48 @@ std::vector<Influence> influences_of(
 }
 } // namespace
 
-GltfWeights to_gltf_weights(const Weights& weights, Index maximum_influences)
+GltfWeights pack_influences(const std::vector<std::vector<GltfInfluence>>& rows, Index joints)
 {
   GltfWeights packed;
-  const Index vertices = weights.rows();
-  std::vector<std::vector<Influence>> rows(static_cast<std::size_t>(vertices));
   std::size_t maximum_row_size = 1;
-  for (Index v = 0; v < vertices; ++v)
+  for (const auto& row : rows)
   {
-    rows[v] = influences_of(weights, v, maximum_influences, packed);
-    maximum_row_size = std::max(maximum_row_size, rows[v].size());
+    maximum_row_size = std::max(maximum_row_size, row.size());
   }
   packed.weights_per_vertex = static_cast<Index>((maximum_row_size + 3) / 4 * 4);
-  packed.joints.assign(static_cast<std::size_t>(vertices * packed.weights_per_vertex), 0);
-  packed.weights.assign(static_cast<std::size_t>(vertices * packed.weights_per_vertex), 0.0F);
-  for (Index v = 0; v < vertices; ++v)
+  const std::size_t size = rows.size() * static_cast<std::size_t>(packed.weights_per_vertex);
+  packed.joints.assign(size, 0);
+  packed.weights.assign(size, 0.0F);
+  for (std::size_t v = 0; v < rows.size(); ++v)
   {
-    const Index first_weight = v * packed.weights_per_vertex;
+    const std::size_t first_weight = v * static_cast<std::size_t>(packed.weights_per_vertex);
     float sum = 0.0F;
     for (std::size_t k = rows[v].size(); k-- > 0;)
     {
-      const Influence& influence = rows[v][k];
+      const GltfInfluence& influence = rows[v][k];
       packed.joints[first_weight + k] = static_cast<std::uint16_t>(influence.joint);
       // The largest weight is computed from the others, so that the rounded row sums to one.
       packed.weights[first_weight + k] = k == 0 ? 1.0F - sum : static_cast<float>(influence.weight);
       sum += packed.weights[first_weight + k];
-      packed.rest_joint = packed.rest_joint || influence.joint == weights.cols();
+      packed.rest_joint = packed.rest_joint || influence.joint == joints;
     }
   }
-  packed.joint_count = weights.cols() + (packed.rest_joint ? 1 : 0);
+  packed.joint_count = joints + (packed.rest_joint ? 1 : 0);
+  return packed;
+}
+
+GltfWeights to_gltf_weights(const Weights& weights, Index maximum_influences)
+{
+  GltfWeights counts; // of weights that are changed or dropped
+  std::vector<std::vector<GltfInfluence>> rows(static_cast<std::size_t>(weights.rows()));
+  for (Index v = 0; v < weights.rows(); ++v)
+  {
+    rows[v] = influences_of(weights, v, maximum_influences, counts);
+  }
+  GltfWeights packed = pack_influences(rows, weights.cols());
+  packed.dropped_weights = counts.dropped_weights;
+  packed.dropped_weight = counts.dropped_weight;
+  packed.negative_rows = counts.negative_rows;
   return packed;
 }
 

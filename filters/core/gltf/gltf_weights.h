@@ -25,6 +25,18 @@ struct GltfWeights
   Index negative_rows = 0; ///< number of rows with a negative weight or a sum above one
 };
 
+/// A weight of a joint at a vertex.
+struct GltfInfluence
+{
+  double weight;
+  Index joint;
+};
+
+/// Store the influences of each vertex. The weights of a vertex sum to one, and the largest is the
+/// first.
+/// @param joints number of joints; an influence of the joint with this index is that of "rest"
+GltfWeights pack_influences(const std::vector<std::vector<GltfInfluence>>& rows, Index joints);
+
 /// Convert weights (#V x #joints) to the form of glTF. Weights of at most 2^-24 are omitted. Rows
 /// whose sum is below one get the joint "rest", with the index #joints. Negative weights are
 /// omitted, and rows whose sum is above one are divided by it.

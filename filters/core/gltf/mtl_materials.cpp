@@ -39,7 +39,7 @@ public:
   int append(const tinyobj::material_t& from)
   {
     Json material{ { "name", sanitize_line(from.name) } };
-    Json& surface = material["pbrMetallicRoughness"];
+    Json surface;
     const int color_picture = this->texture(from.diffuse_texname);
     // A color of zero would make the picture black. Exporters that write it ignore the color.
     const bool is_black = from.diffuse[0] + from.diffuse[1] + from.diffuse[2] == 0.0;
@@ -62,6 +62,7 @@ public:
     const double exponent = std::isfinite(from.shininess) ? std::max(0.0, from.shininess) : 0.0;
     surface["roughnessFactor"] =
       from.roughness > 0.0 ? clamped(from.roughness) : std::pow(2.0 / (exponent + 2.0), 0.25);
+    material["pbrMetallicRoughness"] = std::move(surface);
     this->set_texture(material, "normalTexture",
       from.normal_texname.empty() ? from.bump_texname : from.normal_texname);
     const int light = this->texture(from.emissive_texname);

@@ -455,7 +455,7 @@ TEST(BoxQp, TheEstimateOfItsMemoryIsThePeak)
     ASSERT_TRUE(qp.prepare(context, columns).ok());
     ASSERT_TRUE(first_failure(qp.solve_all(context, columns)).ok());
     const double peak = peak_memory();
-    ASSERT_GT(peak, before + 50 * mebibyte);
+    ASSERT_GT(peak, before + 20 * mebibyte);
     EXPECT_GT(qp.memory_estimate() - before, 0.8 * (peak - before)) << threads;
     EXPECT_LT(qp.memory_estimate() - before, 1.3 * (peak - before)) << threads;
   }

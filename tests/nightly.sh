@@ -4,7 +4,7 @@
 # parts:
 #   option       add an option to a scratch copy of the project
 #   permissive   build and test without GPL and AGPL parts and without OpenVDB
-#   asan         half of the tests under the address and undefined-behavior sanitizers
+#   asan         a third of the tests under the address and undefined-behavior sanitizers
 #   tidy         check the names in a quarter of the kernel files
 #   types        check the types and the documentation of the Python package
 #   notebooks    run the notebooks
@@ -20,7 +20,7 @@
 #   real         weights and tets of an eighth of the real furniture models
 #   paraview     the plugin in ParaView
 #   monkey       random events in the window, under sanitizers
-# Random seeds, the choice between remesh and embed, and the half, quarter, seventh or eighth of the work change every night.
+# Random seeds, the choice between remesh and embed, and the third, quarter, seventh or eighth of the work change every night.
 set -uo pipefail
 program=nightly.sh
 install=yes
@@ -77,7 +77,7 @@ asan()
   # detect_leaks=0: VTK and Mesa do not free some one-time allocations.
   export ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1 BINDPOSE_FUZZ_FACTOR=${BINDPOSE_FUZZ_FACTOR:-1}
   under_xvfb ctest --test-dir "$root/build-asan" --no-tests=error --output-on-failure -j "$(nproc)" \
-    -R '^(core|filters|poses|document|widgets)\.' -I "$(slice_of 2),,2"
+    -R '^(core|filters|poses|document|widgets)\.' -I "$(slice_of 3),,3"
 )
 
 permissive()

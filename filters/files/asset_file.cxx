@@ -2,8 +2,8 @@
 
 #include "file_kind.h"
 #include "gltf/gltf_model.h"
-#include "gltf/mtl_materials.h"
-#include "gltf/look_document.h"
+#include "look/mtl_materials.h"
+#include "look/look_document.h"
 #include "guarded_import.h"
 #include "io/obj.h"
 #include "io/ply.h"

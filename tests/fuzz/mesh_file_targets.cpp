@@ -1,8 +1,8 @@
 #include "fuzz/mesh_file_targets.h"
 
 #include "gltf/gltf_asset.h"
-#include "gltf/mtl_materials.h"
-#include "gltf/look_document.h"
+#include "look/mtl_materials.h"
+#include "look/look_document.h"
 #include "io/medit.h"
 #include "io/obj.h"
 #include "io/off.h"

@@ -25,6 +25,7 @@ CORE_ARROWS = {
     "geometry": {"base", "linear", "geometry"},
     "io": {"base", "geometry", "io"},
     "gltf": {"base", "geometry", "io", "gltf"},
+    "look": {"base", "geometry", "io", "gltf", "look"},
     "solid_angle": {"base", "geometry", "solid_angle"},
     "winding": {"base", "geometry", "solid_angle", "winding"},
     "surface": {"base", "geometry", "winding", "surface"},

@@ -1,5 +1,5 @@
-#ifndef bindpose_gltf_look_document_h
-#define bindpose_gltf_look_document_h
+#ifndef bindpose_look_look_document_h
+#define bindpose_look_look_document_h
 
 // A mesh with a look as a glTF document.
 

@@ -1,6 +1,6 @@
 // tinyobjloader parses MTL files. It is a header-only library; this file compiles its
 // implementation.
-#include "gltf/mtl_materials.h"
+#include "look/mtl_materials.h"
 
 #include "gltf/gltf_model.h"
 #include "io/text_scanner.h"

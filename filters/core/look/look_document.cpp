@@ -1,4 +1,4 @@
-#include "gltf/look_document.h"
+#include "look/look_document.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
-#ifndef bindpose_gltf_mtl_materials_h
-#define bindpose_gltf_mtl_materials_h
+#ifndef bindpose_look_mtl_materials_h
+#define bindpose_look_mtl_materials_h
 
 // Materials of OBJ and PLY files in a glTF document.
 

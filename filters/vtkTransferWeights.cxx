@@ -7,7 +7,7 @@
 #include "bind_key.h"
 #include "conversion.h"
 #include "output_type.h"
-#include "weights/transfer.h"
+#include "transfer/transfer.h"
 #include "weights_arrays.h"
 
 #include "vtkDoubleArray.h"

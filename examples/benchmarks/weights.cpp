@@ -6,7 +6,7 @@
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/monotone_weights.h"
 #include "weights/preview_weights.h"
-#include "weights/transfer.h"
+#include "transfer/transfer.h"
 
 #include <benchmark/benchmark.h>
 

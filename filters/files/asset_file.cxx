@@ -2,12 +2,12 @@
 
 #include "file_kind.h"
 #include "gltf/gltf_model.h"
-#include "look/mtl_materials.h"
-#include "look/look_document.h"
 #include "guarded_import.h"
 #include "io/obj.h"
 #include "io/ply.h"
 #include "io/text_scanner.h"
+#include "look/look_document.h"
+#include "look/mtl_materials.h"
 #include "polygon_triangles.h"
 
 #include <array>

@@ -1,13 +1,13 @@
 #include "fuzz/mesh_file_targets.h"
 
 #include "gltf/gltf_asset.h"
-#include "look/mtl_materials.h"
-#include "look/look_document.h"
 #include "io/medit.h"
 #include "io/obj.h"
 #include "io/off.h"
 #include "io/ply.h"
 #include "io/stl.h"
+#include "look/look_document.h"
+#include "look/mtl_materials.h"
 
 #include "fuzz/memory_file.h"
 #include "fuzz/status_checks.h"

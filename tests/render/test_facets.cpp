@@ -10,7 +10,7 @@
 #include "support/meshes.h"
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/surface_weights.h"
-#include "weights/transfer.h"
+#include "transfer/transfer.h"
 
 #include "vtkImageData.h"
 #include "vtkPolyData.h"

@@ -39,14 +39,15 @@ CORE_ARROWS = {
     "handles": {"base", "geometry", "surface", "handles"},
     "domain": {"base", "linear", "geometry", "surface", "planar", "embedding", "tets", "inside", "handles", "domain"},
     "qp": {"base", "linear", "geometry", "domain", "qp"},
-    "weights": {"base", "linear", "geometry", "surface", "inside", "domain", "qp", "weights"},
+    "transfer": {"base", "linear", "geometry", "surface", "domain", "qp", "transfer"},
+    "weights": {"base", "linear", "geometry", "surface", "inside", "domain", "qp", "transfer", "weights"},
     "weight_uses": {"base", "geometry", "weight_uses"},
     "automatic": {"base", "geometry", "winding", "surface", "helper", "inside", "handles", "automatic"},
     "pose": {"base", "geometry", "io", "handles", "pose"},
     "skinning": {"base", "geometry", "handles", "pose", "skinning"},
     "arap": {"base", "linear", "geometry", "handles", "pose", "skinning", "arap"},
     "fairing": {"base", "geometry", "arap", "fairing"},
-    "poser": {"base", "geometry", "handles", "domain", "weights", "pose", "skinning", "arap", "fairing", "poser"},
+    "poser": {"base", "geometry", "handles", "domain", "transfer", "weights", "pose", "skinning", "arap", "fairing", "poser"},
     "mesher": {"base", "helper", "segmentation", "inside", "mesher"},
 }
 

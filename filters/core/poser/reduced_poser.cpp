@@ -1,6 +1,6 @@
 #include "poser/reduced_poser.h"
 
-#include "weights/transfer.h"
+#include "transfer/transfer.h"
 
 namespace bindpose
 {

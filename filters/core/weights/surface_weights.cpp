@@ -12,7 +12,7 @@
 #include "domain/embedded_surface.h"
 #include "domain/loose_parts.h"
 #include "weights/preview_weights.h"
-#include "weights/transfer.h"
+#include "transfer/transfer.h"
 
 #include <algorithm>
 #include <cmath>

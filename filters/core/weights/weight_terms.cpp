@@ -3,7 +3,7 @@
 // (column_groups.cpp).
 #include "weights/weight_terms.h"
 
-#include "weights/transfer.h"
+#include "transfer/transfer.h"
 
 #include <algorithm>
 #include <array>

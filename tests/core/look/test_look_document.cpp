@@ -1,7 +1,7 @@
 // Meshes with a look as glTF documents: vertices, materials and pictures.
 #include "gltf/gltf_asset.h"
-#include "look/mtl_materials.h"
 #include "look/look_document.h"
+#include "look/mtl_materials.h"
 
 #include "support/files.h"
 

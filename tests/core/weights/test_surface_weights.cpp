@@ -6,7 +6,7 @@
 #include "domain/embedded_surface.h"
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/surface_weights.h"
-#include "weights/transfer.h"
+#include "transfer/transfer.h"
 #include "weights/unconstrained_weights.h"
 
 #include "support/needs_mesher.h"

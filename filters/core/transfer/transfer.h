@@ -1,5 +1,5 @@
-#ifndef bindpose_weights_transfer_h
-#define bindpose_weights_transfer_h
+#ifndef bindpose_transfer_transfer_h
+#define bindpose_transfer_transfer_h
 
 #include "base/execution.h"
 #include "domain/domain.h"

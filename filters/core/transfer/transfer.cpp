@@ -1,5 +1,5 @@
 // Interpolate rows of weights at arbitrary points (see transfer.h).
-#include "weights/transfer.h"
+#include "transfer/transfer.h"
 
 #include "base/parallel.h"
 #include "geometry/simplex_locator.h"

@@ -2,7 +2,7 @@
 // linear functions inside of the mesh. Points outside get the weights of the nearest point of the
 // mesh. The search agrees with brute force over all elements.
 #include "geometry/simplex_locator.h"
-#include "weights/transfer.h"
+#include "transfer/transfer.h"
 
 #include "weights_shapes.h"
 

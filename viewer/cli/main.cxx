@@ -4,7 +4,7 @@
 #include "cli/interrupt.h"
 #include "cli/key_table.h"
 #include "cli/session.h"
-#include "cli/verbs.h"
+#include "cli/verbs/verbs.h"
 
 #include "vtkLogger.h"
 #include "vtkNew.h"

@@ -3,7 +3,7 @@
 // data.
 #include "cli/session.h"
 #include "cli/set_options.h"
-#include "cli/verbs.h"
+#include "cli/verbs/verbs.h"
 
 #include "file_kind.h"
 #include "vtkMonotoneSmoothing.h"

@@ -1,4 +1,4 @@
-#include "cli/weights_stage.h"
+#include "cli/verbs/weights_stage.h"
 
 #include "cli/session.h"
 #include "cli/set_options.h"

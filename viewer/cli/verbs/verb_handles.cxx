@@ -2,7 +2,7 @@
 // skeleton, or points.
 #include "cli/session.h"
 #include "cli/set_options.h"
-#include "cli/verbs.h"
+#include "cli/verbs/verbs.h"
 #include "conversion.h"
 #include "file_kind.h"
 #include "handle_tgf.h"

@@ -1,8 +1,8 @@
 // Implements bindpose rig ASSET -o OUT.glb. The points of all meshes of a glTF file get weights,
 // and a copy of the file is written with the new skin. With --handles ASSET the joints are kept.
 #include "cli/session.h"
-#include "cli/verbs.h"
-#include "cli/weights_stage.h"
+#include "cli/verbs/verbs.h"
+#include "cli/verbs/weights_stage.h"
 
 #include "vtkGLTFSkinWriter.h"
 #include "vtkWeightsAlgorithm.h"

@@ -3,8 +3,8 @@
 // filter may add points to the input mesh. In this case the weights are transferred to the original
 // points, unless the output is a .vtu file.
 #include "cli/session.h"
-#include "cli/verbs.h"
-#include "cli/weights_stage.h"
+#include "cli/verbs/verbs.h"
+#include "cli/verbs/weights_stage.h"
 
 #include "conversion.h"
 #include "file_kind.h"

@@ -2,7 +2,7 @@
 // at the points of a dataset.
 #include "cli/session.h"
 #include "cli/set_options.h"
-#include "cli/verbs.h"
+#include "cli/verbs/verbs.h"
 #include "file_kind.h"
 #include "io/vdb.h"
 

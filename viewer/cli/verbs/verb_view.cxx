@@ -4,7 +4,7 @@
 #include "cli/interrupt.h"
 #include "cli/session.h"
 #include "cli/under_xvfb.h"
-#include "cli/verbs.h"
+#include "cli/verbs/verbs.h"
 
 #include "file_kind.h"
 #include "pictures/display.h"

@@ -1,7 +1,7 @@
 // Implements bindpose tetrahedralize SURFACE, which fills the inside of a surface with tets.
 #include "cli/session.h"
 #include "cli/set_options.h"
-#include "cli/verbs.h"
+#include "cli/verbs/verbs.h"
 
 #include "vtkDataSet.h"
 #include "vtkNew.h"

@@ -2,7 +2,7 @@
 // as a report for programs.
 #include "cli/interrupt.h"
 #include "cli/session.h"
-#include "cli/verbs.h"
+#include "cli/verbs/verbs.h"
 
 #include "base/number_text.h"
 #include "conversion.h"

@@ -3,7 +3,7 @@
 // for ParaView, or one animated glTF file.
 #include "cli/session.h"
 #include "cli/set_options.h"
-#include "cli/verbs.h"
+#include "cli/verbs/verbs.h"
 
 #include "base/memory.h"
 #include "file_kind.h"

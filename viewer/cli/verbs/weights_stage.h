@@ -1,5 +1,5 @@
-#ifndef bindpose_cli_weights_stage_h
-#define bindpose_cli_weights_stage_h
+#ifndef bindpose_cli_verbs_weights_stage_h
+#define bindpose_cli_verbs_weights_stage_h
 
 // The weights filter of the verbs that compute weights.
 

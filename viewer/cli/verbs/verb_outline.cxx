@@ -2,7 +2,7 @@
 // region inside of curves.
 #include "cli/session.h"
 #include "cli/set_options.h"
-#include "cli/verbs.h"
+#include "cli/verbs/verbs.h"
 #include "pictures/picture_file.h"
 
 #include "vtkNew.h"

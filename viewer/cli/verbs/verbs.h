@@ -1,5 +1,5 @@
-#ifndef bindpose_cli_verbs_h
-#define bindpose_cli_verbs_h
+#ifndef bindpose_cli_verbs_verbs_h
+#define bindpose_cli_verbs_verbs_h
 
 namespace bindpose::cli
 {

@@ -7,7 +7,7 @@ ParaView plugin includes the handle widget and Qt, but nothing else from the vie
 ParaView. It has a proxy for every filter that can be instantiated. Nothing outside of the tests includes a header of the
 tests. A parameter ExecutionContext is the first one. No two units (a header and its source) include each other. Each file
 of the window has the namespace of its folder. No folder has more than 30 source files, except the flat list of VTK classes
-in filters.
+in filters. A CMakeLists.txt names every source file.
 """
 
 import pathlib
@@ -50,6 +50,8 @@ CORE_ARROWS = {
     "poser": {"base", "geometry", "handles", "domain", "transfer", "weights", "pose", "skinning", "arap", "fairing", "poser"},
     "mesher": {"base", "helper", "segmentation", "inside", "mesher"},
 }
+
+COMPILED_BY_SCRIPTS = {"plain_tetgen.cpp"}
 
 # For each folder of viewer/app: the folders of viewer/app whose headers its files may include.
 APP_ARROWS = {
@@ -171,6 +173,20 @@ def large_folders():
             for path, count in counts.items() if count > LARGEST_FOLDER]
 
 
+def forgotten_sources():
+    """Return one sentence for each source file that no CMakeLists.txt names, so it is never compiled."""
+    folders = ("filters", "viewer", "python", "tests", "examples")
+    words = {pathlib.PurePath(word).name for folder in folders for path in (ROOT / folder).rglob("CMakeLists.txt")
+             for word in re.findall(r"[\w./${}-]+", path.read_text())}
+    # A name may contain a variable: pq${widget}PropertyWidget.cxx. Names of little else match too much.
+    variable = re.compile(r"\$\{\w+\}")
+    words = {word for word in words if word == variable.sub("", word) or len(pathlib.PurePath(variable.sub("", word)).stem) > 3}
+    names = re.compile("|".join(r"\w+".join(map(re.escape, variable.split(word))) for word in words))
+    return [f"{path.relative_to(ROOT)} is in no CMakeLists.txt" for folder in folders for path, _ in sources(folder)
+            if path.suffix in (".cpp", ".cxx") and path.name not in COMPILED_BY_SCRIPTS
+            and not names.fullmatch(path.name) and not names.fullmatch(path.stem)]
+
+
 def main():
     core = list(sources("filters/core"))
     wrong = [f"{path.relative_to(ROOT)} names the VTK header {include}" for path, includes in core for include in includes
@@ -180,6 +196,7 @@ def main():
     wrong += late_contexts()
     wrong += outside_of_namespace()
     wrong += large_folders()
+    wrong += forgotten_sources()
     wrong += forbidden_includes()
     wrong += without_proxy()
     wrong += [f"{one} and {other} include each other" for one, other in sorted(mutual_includes())]

@@ -7,8 +7,8 @@
 #include "support/cancel_later.h"
 #include "support/environment.h"
 #include "support/meshes.h"
-#include "support/sanitized.h"
 #include "support/needs_mesher.h"
+#include "support/sanitized.h"
 #include "support/watched_stand_in.h"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,6 @@
 // Meshes with a look as glTF documents: vertices, materials and pictures.
 #include "gltf/gltf_asset.h"
+#include "io/obj.h"
 #include "look/look_document.h"
 #include "look/mtl_materials.h"
 
@@ -168,7 +169,7 @@ TEST_F(LookDocuments, MaterialsBecomeThoseOfGltf)
   const Json& lamp = json["materials"][1];
   EXPECT_EQ(lamp["pbrMetallicRoughness"]["baseColorFactor"][1], 1.0);
   EXPECT_EQ(lamp["pbrMetallicRoughness"]["baseColorTexture"]["index"], 0); // the same texture
-  EXPECT_EQ(lamp["pbrMetallicRoughness"]["roughnessFactor"], 0.75);
+  EXPECT_DOUBLE_EQ(lamp["pbrMetallicRoughness"]["roughnessFactor"].get<double>(), 0.75);
   EXPECT_EQ(lamp["pbrMetallicRoughness"]["metallicFactor"], 1.0);
   EXPECT_EQ(lamp["emissiveFactor"], Json({ 0.0, 1.0, 0.25 }));
   EXPECT_FALSE(lamp.contains("alphaMode"));

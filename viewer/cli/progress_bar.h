@@ -7,24 +7,36 @@
 namespace bindpose::cli
 {
 
-/// Draws one line on the standard error: a bar, the percentage, and the name of the phase. It draws
-/// nothing if the standard error is not a terminal.
+/// The form in which progress is written to the standard error.
+enum class ProgressStyle
+{
+  none,
+  bar, ///< one line that is redrawn; nothing if the standard error is not a terminal
+  /// A new line "progress 42 % PHASE" for each new phase, and for each new percentage, but at most
+  /// every 80 ms; for programs that run this one.
+  lines
+};
+
+/// Writes the progress of a run to the standard error: the percentage and the name of the phase.
 class ProgressBar
 {
 public:
-  explicit ProgressBar(bool enabled);
+  explicit ProgressBar(ProgressStyle style);
   ~ProgressBar() { this->clear(); }
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// Draw the bar for a fraction of the whole work in [0, 1]; the bar never moves backwards.
+  /// Show a fraction of the whole work in [0, 1]; the progress never decreases.
   void show(double fraction, const std::string& phase);
-  /// Remove the line, so that other output can be printed.
+  /// Remove the bar, so that other output can be printed.
   void clear();
 
 private:
-  bool visible_ = false;
+  void draw_bar(int percent);
+
+  ProgressStyle style_;
   bool drawn_ = false;
+  int printed_percent_ = -1;
   double maximum_fraction_ = 0.0;
   std::string phase_;
   std::chrono::steady_clock::time_point last_draw_time_{};

@@ -86,10 +86,17 @@ bool starts_with(const std::string& text, const std::string& begin)
   return text.compare(0, begin.size(), begin) == 0;
 }
 
+ProgressStyle progress_style(const Arguments& arguments)
+{
+  return arguments.has("quiet")             ? ProgressStyle::none
+    : arguments.text("progress") == "lines" ? ProgressStyle::lines
+                                            : ProgressStyle::bar;
+}
+
 } // namespace
 
 Session::Session(Arguments arguments)
-  : arguments_(std::move(arguments)), bar_(!arguments_.has("quiet"))
+  : arguments_(std::move(arguments)), bar_(progress_style(arguments_))
 {
 }
 

@@ -56,3 +56,16 @@ def test_progress_follows_the_clock(folder, words, names):
     # The program must end soon after the progress line reaches 98 %.
     late = end - min(seconds for seconds, percent, _ in rows if percent >= 98)
     assert late < 0.2 * end + 0.2
+
+
+def test_lines_for_other_programs(folder):
+    folder.off("m.off", shapes.sphere(80, 40))
+    words = ("weights", "m.off", "--handles", "auto:4", "-o", "w.vtp", "--overwrite", "--progress", "lines")
+    lines = folder.run(*words).is_good().err.splitlines()
+    found = [re.fullmatch(r"progress (\d+) % (.+)", line) for line in lines]
+    assert len(found) > 3 and all(found)
+    percents = [int(match[1]) for match in found]
+    assert percents == sorted(percents) and percents[-1] <= 100
+    assert "handles" in {match[2] for match in found}
+    assert folder.run(*words, "--quiet").is_good().err == ""
+    assert folder.run(*words[:-2]).is_good().err == ""  # no bar without a terminal

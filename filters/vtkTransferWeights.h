@@ -10,15 +10,23 @@
  * the weights at the nearest position of the mesh. If the rows of the mesh sum to one, the rows of
  * the target also sum to one.
  *
+ * Use the method INPAINT if the target is a different surface, such as clothes over a body. Points
+ * that match the surface of the mesh by distance and normal get the weights of its nearest point. The weights of all other points are solved for: the smoothest weights from 0 to 1 that
+ * agree with the matched points, with a certificate (see inpaint_weights). Parts that are near each
+ * other but not connected, such as a sleeve and the side of the body, do not exchange weights. The
+ * target must have triangles or tets.
+ *
  * **Input 0**: the target, any vtkPointSet. **Input 1**: the mesh with the point array `Weights`
  * (see vtkWeightsAlgorithm). **Output**: input 0 with a double point array of the same name and
  * component names, and the optimality certificates of the weights as field data (see
- * vtkWeightsAlgorithm).
+ * vtkWeightsAlgorithm). With INPAINT, these are the relative gaps and residuals of the inpainted
+ * columns, and the output also has the point array `Matched` (1 for matched points, else 0).
  *
  * **Pieces.** Each process transfers the weights to its own piece of the target, from the whole
  * mesh. Every point gets the same bits as on one process, except on a mesh that is cut open. There,
  * the id of a point in its piece differs from its id in the whole target, so the wrong one of
- * several vertices at the same position may be used. The report counts only the piece.
+ * several vertices at the same position may be used. The report counts only the piece. INPAINT
+ * needs the whole target: the first process does the work.
  *
  * The result is cached until points, cells or weights of the mesh or the points of the target
  * change. An unchanged transfer returns the same array. GetNumberOfBinds() counts the transfers.
@@ -26,8 +34,12 @@
  *
  * Report: transfer (exact, barycentric or mixed), counts.{transferred_exact,
  * transferred_barycentric, transferred_nearest, transfer_misses} (a miss is farther from the mesh
- * than 5 % of its diagonal, or not finite), transfer_largest_distance, seconds.transfer.
- * Errors: no array of that name, a mesh without tets or triangles.
+ * than 5 % of its diagonal, or not finite), transfer_largest_distance, seconds.transfer. INPAINT:
+ * the entries of inpaint_weights().
+ * Errors: no array of that name, a mesh without tets or triangles; for INPAINT, also a target
+ * without tets or triangles.
+ *
+ * Abdrashitov, Raichstat, Monsen, Hill 2023, Robust skin weights transfer via weight inpainting.
  *
  * @sa vtkBoundedBiharmonicWeights vtkProbeFilter
  */
@@ -38,6 +50,8 @@
 #include "BindposeFiltersModule.h" // for export macro
 #include "block_caches.h" // for BlockCaches
 #include "vtkBindposeAlgorithm.h"
+
+class vtkPointSet;
 
 class BINDPOSEFILTERS_EXPORT vtkTransferWeights : public vtkBindposeAlgorithm
 {
@@ -52,12 +66,55 @@ public:
   std::string GetArrayName() { return this->ArrayName; }
   ///@}
 
+  /// Methods of transfer.
+  enum TransferMethod
+  {
+    NEAREST = 0, ///< each point gets the weights of the nearest point of the mesh
+    INPAINT = 1 ///< matched points do; the weights of all other points are solved for
+  };
+
+  ///@{
+  /// Method of transfer. Default NEAREST. Values out of range are clamped.
+  void SetMethod(int method);
+  int GetMethod() { return this->Method; }
+  void SetMethodToNearest() { this->SetMethod(NEAREST); }
+  void SetMethodToInpaint() { this->SetMethod(INPAINT); }
+  ///@}
+
+  ///@{
+  /// INPAINT: largest distance of a matched point from the mesh, at least 0, as a fraction of the
+  /// mesh's diagonal. Default 0.05.
+  void SetMaximumDistance(double distance);
+  double GetMaximumDistance() { return this->MaximumDistance; }
+  ///@}
+
+  ///@{
+  /// INPAINT: largest angle between the normals at a matched point and at the nearest point of the
+  /// mesh, in degrees from 0 to 180. Default 30. At 180, normals are ignored.
+  void SetMaximumAngle(double degrees);
+  double GetMaximumAngle() { return this->MaximumAngle; }
+  ///@}
+
+  ///@{
+  /// INPAINT: largest number of weights above 0 at a point. The largest weights are kept. Default
+  /// 0: the largest number at a point of the mesh.
+  void SetMaximumInfluences(int influences);
+  int GetMaximumInfluences() { return this->MaximumInfluences; }
+  ///@}
+
+  ///@{
+  /// INPAINT: number of smoothing steps near inpainted points. Default 0.
+  void SetSmoothingSteps(int steps);
+  int GetSmoothingSteps() { return this->SmoothingSteps; }
+  ///@}
+
   /// Number of times that weights were transferred.
   vtkGetMacro(NumberOfBinds, int);
 
-  /// Return the port of the target. Each process can transfer weights to its own piece of the
-  /// target, because the weights of a point do not depend on other points of the target.
-  int GetPiecePort() override { return 0; }
+  /// NEAREST: return the port of the target. Each process can transfer weights to its own piece of
+  /// the target, because the weights of a point do not depend on other points of the target.
+  /// INPAINT: return -1.
+  int GetPiecePort() override { return this->Method == NEAREST ? 0 : -1; }
 
   /// Set the mesh with weights, like SetInputData(1, mesh).
   void SetMeshData(vtkDataObject* mesh) { this->SetInputData(1, mesh); }
@@ -78,10 +135,31 @@ private:
   vtkTransferWeights(const vtkTransferWeights&) = delete;
   void operator=(const vtkTransferWeights&) = delete;
 
+  /// Set a parameter on which the transferred weights depend.
+  template <typename Value>
+  void SetBindParameter(Value& parameter, const Value& value)
+  {
+    if (parameter != value)
+    {
+      parameter = value;
+      this->BindTime.Modified();
+      this->Modified();
+    }
+  }
+  struct Cache;
+  bindpose::Status Transfer(
+    bindpose::ExecutionContext& context, vtkPointSet* target, vtkPointSet* mesh, Cache& cache);
+  bindpose::Status Inpaint(
+    bindpose::ExecutionContext& context, vtkPointSet* target, vtkPointSet* mesh, Cache& cache);
+
   std::string ArrayName = "Weights";
+  int Method = NEAREST;
+  double MaximumDistance = 0.05;
+  double MaximumAngle = 30.0;
+  int MaximumInfluences = 0;
+  int SmoothingSteps = 0;
   int NumberOfBinds = 0;
   vtkTimeStamp BindTime;
-  struct Cache;
   bindpose::BlockCaches<Cache> BindCache;
 };
 

@@ -51,4 +51,4 @@ from .program import render
 from .rigs import Rig, bind, deform, read_rig, write_rig
 from .running import report, run
 from .smoothing import monotone_smoothing
-from .weight_uses import cut_along_bones, depth_order, endpoint_weights, weighted_colors
+from .weight_uses import cut_along_bones, depth_order, endpoint_weights, transfer_weights, weighted_colors

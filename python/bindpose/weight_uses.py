@@ -1,4 +1,4 @@
-"""Use weights for colors and depth, compute endpoint weights, and cut planar meshes along bones."""
+"""Transfer weights, use weights for colors and depth, compute endpoint weights, and cut planar meshes along bones."""
 
 from __future__ import annotations
 
@@ -20,6 +20,66 @@ from .running import run
 def _inputs(mesh, handles, weights, array_name):
     data = with_weights(to_dataset(mesh), weights, array_name)
     return data, to_handles(handles, data)
+
+
+@with_options("transfer_weights")
+def transfer_weights(target: Mesh, source: Mesh, *, weights: ArrayLike | None = None, array_name: str = "Weights", options,
+                     threads: int = 0, progress: Progress = None) -> Any:
+    """Transfer weights from one mesh to another, such as from a body to clothes.
+
+    Parameters
+    ----------
+    target : vtkDataSet or (vertices, elements)
+        The mesh that gets the weights.
+    source : vtkDataSet or (vertices, elements)
+        A dataset with weights, or arrays together with `weights`.
+    weights : (#V, #handles) array, optional
+        Weights of a source of arrays.
+    array_name : str
+        Point array of weights.
+    {options}
+    threads, progress, progress_bar
+        See `winding_number`.
+
+    Returns
+    -------
+    Array or vtkDataSet
+        For a target of arrays: (#P, #handles). For a dataset: a copy of the target with the point arrays ``Weights``
+        and, for method inpaint, ``Matched`` (1 for points that match the source, else 0).
+
+    Raises
+    ------
+    InvalidInput
+        No weights, or a mesh that has neither triangles nor tets.
+
+    Warns
+    -----
+    NotConvergedWarning
+        The certificate of a column is above the tolerance; the result is kept.
+    BindposeWarning
+        A connected part of the target has no matched point, or (method nearest) points are far from the source.
+
+    Notes
+    -----
+    Abdrashitov, Raichstat, Monsen, Hill, "Robust skin weights transfer via weight inpainting", 2023.
+
+    Examples
+    --------
+    >>> body = ([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]])
+    >>> cloth = ([[0, 0, 0.01], [1, 0, 0.01], [1, 1, 0.01], [0, 1, 0.01]], [[0, 1, 2], [0, 2, 3]])
+    >>> values = bindpose.transfer_weights(cloth, body, weights=[[1, 0], [0, 1], [0, 1], [1, 0]])
+    >>> values.round(6).tolist()
+    [[1.0, 0.0], [0.0, 1.0], [0.0, 1.0], [1.0, 0.0]]
+    """
+    transfer = filters.vtkTransferWeights()
+    transfer.SetInputData(0, to_dataset(target))
+    transfer.SetInputData(1, with_weights(to_dataset(source), weights, array_name))
+    transfer.SetArrayName(array_name)
+    options.apply(transfer, "transfer_weights")
+    transfer.SetNumberOfThreads(threads)
+    report = run(transfer, progress)
+    result = transfer.GetOutput()
+    return result if is_dataset(target) else weights_of(result, array_name, report)
 
 
 @with_options("weighted_colors")

@@ -1,5 +1,5 @@
 // Tests of vtkTransferWeights, which transfers weights of tets to the surface of the tets or to any
-// other dataset. Changes of the pose cause no new transfer.
+// other dataset, by the nearest point or by inpainting. Changes of the pose cause no new transfer.
 #include "TestFilter.h"
 
 #include "vtkBoundedBiharmonicWeights.h"
@@ -15,6 +15,7 @@
 #include "vtkFieldData.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkPointSet.h"
 #include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -134,6 +135,70 @@ TEST_F(TransferWeights, PointsInsideAndOutside)
   {
     EXPECT_NEAR(to->GetComponent(v, 0) + to->GetComponent(v, 1), 1.0, 1e-12);
   }
+}
+
+TEST_F(TransferWeights, InpaintsUnmatchedPoints)
+{
+  // The middle of the target is far from the surface of the tets.
+  const TriangleMesh box = test::box(Vec3::Zero(), Vec3::Ones());
+  vtkNew<vtkPolyData> target;
+  target->DeepCopy(this->surface);
+  for (vtkIdType v = 0; v < target->GetNumberOfPoints(); ++v)
+  {
+    double p[3];
+    target->GetPoint(v, p);
+    const bool in_middle = p[2] > 0.3 && p[2] < 0.7;
+    target->GetPoints()->SetPoint(v, in_middle ? 3.0 * p[0] - 1.0 : p[0], p[1], p[2]);
+  }
+  this->transfer->SetInputData(0, target);
+  EXPECT_EQ(this->transfer->GetPiecePort(), 0);
+  this->transfer->SetMethodToInpaint();
+  EXPECT_EQ(this->transfer->GetPiecePort(), -1);
+  this->transfer->Update();
+  ASSERT_EQ(this->transfer->GetStatus(), vtkBindposeAlgorithm::OK)
+    << this->transfer->GetStatusMessage();
+  vtkPointSet* output = vtkPointSet::SafeDownCast(this->transfer->GetOutput());
+  vtkDataArray* rows = output->GetPointData()->GetArray("Weights");
+  vtkDataArray* matched = output->GetPointData()->GetArray("Matched");
+  ASSERT_TRUE(rows && matched);
+  EXPECT_STREQ(rows->GetComponentName(1), "high");
+  const Report report = read_report(output);
+  double sum = 0.0;
+  for (vtkIdType v = 0; v < rows->GetNumberOfTuples(); ++v)
+  {
+    EXPECT_NEAR(rows->GetComponent(v, 0) + rows->GetComponent(v, 1), 1.0, 1e-12);
+    EXPECT_GE(rows->GetComponent(v, 0), 0.0);
+    sum += matched->GetComponent(v, 0);
+  }
+  EXPECT_EQ(report.number("counts.matched", -1), sum);
+  EXPECT_GT(report.number("counts.inpainted", -1), 0);
+  EXPECT_LE(report.number("relative_gap", 1), 1e-6);
+  // The certificates are those of the inpainted columns, not those of the source.
+  vtkFieldData* fields = output->GetFieldData();
+  ASSERT_TRUE(fields->GetAbstractArray("WeightsRelativeGap"));
+  EXPECT_NE(fields->GetAbstractArray("WeightsRelativeGap"),
+    this->weights->GetOutput()->GetFieldData()->GetAbstractArray("WeightsRelativeGap"));
+  EXPECT_FALSE(fields->GetAbstractArray("WeightsInteriorExtrema"));
+
+  // Nothing is transferred again until an option or the cells of the target change.
+  this->transfer->Modified();
+  this->transfer->Update();
+  EXPECT_EQ(this->transfer->GetNumberOfBinds(), 1);
+  this->transfer->SetMaximumAngle(60.0);
+  this->transfer->Update();
+  EXPECT_EQ(this->transfer->GetNumberOfBinds(), 2);
+  vtkNew<vtkPolyData> cut;
+  cut->ShallowCopy(target);
+  cut->SetPolys(to_polydata(box.points, box.triangles)->GetPolys());
+  this->transfer->SetInputData(0, cut);
+  this->transfer->Update();
+  EXPECT_EQ(this->transfer->GetNumberOfBinds(), 3);
+
+  // Errors are those of the kernel.
+  this->transfer->SetMaximumDistance(-1.0);
+  this->transfer->Update();
+  EXPECT_EQ(this->transfer->GetStatus(), vtkBindposeAlgorithm::INVALID_INPUT);
+  EXPECT_THAT(this->transfer->GetStatusMessage(), HasSubstr("maximum distance"));
 }
 
 TEST_F(TransferWeights, AHundredPosesBindNothingAgain)

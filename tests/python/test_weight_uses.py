@@ -1,4 +1,4 @@
-"""Colors, depth order and cuts in the Python package, on arrays and datasets: formulas and exceptions."""
+"""Transfer, colors, depth order and cuts in the Python package, on arrays and datasets: formulas and exceptions."""
 
 import bindpose
 import numpy as np
@@ -17,6 +17,35 @@ def bar_with_weights():
     mesh = to_dataset(BAR)
     add_point_array(mesh, "Weights", LINEAR, ["b1", "b2"])
     return mesh
+
+
+def test_weights_are_transferred_to_another_mesh():
+    sleeve = shapes.bar(nx=20, ny=3, nz=3)
+    points = np.array(sleeve[0])
+    points[:, 1:] = 0.5 + 1.05 * (points[:, 1:] - 0.5)
+    expected = np.stack([1 - points[:, 0] / 6, points[:, 0] / 6], axis=1)
+    for method in ("inpaint", "nearest"):
+        values = bindpose.transfer_weights((points, sleeve[1]), BAR, weights=LINEAR, method=method)
+        assert isinstance(values, bindpose.Array) and values.shape == (len(points), 2)
+        assert values == pytest.approx(expected, abs=1e-9)
+        report = bindpose.report(values)
+        assert report["transfer"] == ("inpaint" if method == "inpaint" else "barycentric")
+    target = to_dataset((points, sleeve[1]))
+    result = bindpose.transfer_weights(target, bar_with_weights())
+    assert point_array(result, "Matched").min() == 1 and point_array(target, "Matched") is None
+    array = result.GetPointData().GetArray("Weights")
+    assert [array.GetComponentName(j) for j in range(2)] == ["b1", "b2"]
+
+
+@pytest.mark.parametrize("options, words", [
+    ({"method": "nearest", "maximum_angle": 20}, "maximum_angle is not used by method 'nearest'"),
+    ({"maximum_angle": 200}, "maximum_angle must be a number"),
+    ({"method": "exact"}, "nearest, inpaint"),
+    ({"array_name": "Other"}, "'Other'"),
+])
+def test_options_of_the_transfer_are_checked(options, words):
+    with pytest.raises(bindpose.InvalidInput, match=words):
+        bindpose.transfer_weights(BAR, bar_with_weights(), **options)
 
 
 def test_colors_are_the_weights_sum():

@@ -39,7 +39,7 @@ void run(Session& session)
     { "winding", run_winding }, { "tetrahedralize", run_tetrahedralize },
     { "outline", run_outline }, { "handles", run_handles }, { "weights", run_weights },
     { "smooth", run_smooth }, { "deform", run_deform }, { "rig", run_rig },
-    { "render", run_render }, { "view", run_view } };
+    { "transfer", run_transfer }, { "render", run_render }, { "view", run_view } };
   for (const auto& [name, function] : functions)
   {
     if (session.arguments().verb == name)

@@ -17,6 +17,7 @@ void run_weights(Session& session);
 void run_smooth(Session& session);
 void run_deform(Session& session);
 void run_rig(Session& session);
+void run_transfer(Session& session);
 void run_render(Session& session);
 void run_view(Session& session);
 

@@ -3,6 +3,7 @@
 #include "vtkGLTFSkinReader.h"
 
 #include "base/execution.h"
+#include "cached_file.h"
 #include "file_kind.h"
 #include "frame_times.h"
 #include "gltf_data.h"
@@ -21,7 +22,8 @@ vtkStandardNewMacro(vtkGLTFSkinReader);
 
 struct vtkGLTFSkinReader::Internals
 {
-  GltfFile file;
+  CachedFile<GltfData> file{ [](ExecutionContext&, const std::string& path, GltfData& data)
+    { return read_gltf(path, data); } };
 };
 
 vtkGLTFSkinReader::vtkGLTFSkinReader() : Internal(std::make_unique<Internals>())
@@ -46,9 +48,10 @@ int vtkGLTFSkinReader::RequestInformation(
 {
   int frames = 0;
   // Ignore the status here; Execute() reports errors of the file.
+  ExecutionContext context;
   if (this->Frame < 0 && this->FileName &&
     check_extension(this->FileName, GetFileExtensions()).ok() &&
-    this->Internal->file.read(this->FileName).ok())
+    this->Internal->file.read(context, this->FileName).ok())
   {
     frames = static_cast<int>(this->Internal->file.data().poses.size());
   }
@@ -71,7 +74,7 @@ Status vtkGLTFSkinReader::Execute(
   Status status = check_extension(path, GetFileExtensions());
   if (status.ok())
   {
-    status = this->Internal->file.read(path);
+    status = this->Internal->file.read(context, path);
   }
   if (!status.ok())
   {

@@ -10,6 +10,7 @@
 #include "gltf_data.h"
 #include "io/atomic_file.h"
 #include "io/text_scanner.h"
+#include "motion_data.h"
 #include "pose/pose_file.h"
 #include "skinning/skinning.h"
 #include "weights_input.h"
@@ -225,7 +226,9 @@ Status read_frames(vtkInformationVector* input, const Surface& surface, vtkIdTyp
   return {};
 }
 
-Status read_poses(const std::string& path, const Handles& handles, const Pose& base, GltfSkin& skin)
+/// Read a sequence of poses from a pose file.
+Status read_pose_file(const std::string& path, const Handles& handles, const Pose& base,
+  std::vector<Pose>& poses, double& frames_per_second)
 {
   std::string text;
   Status status = read_file(path, text);
@@ -235,6 +238,46 @@ Status read_poses(const std::string& path, const Handles& handles, const Pose& b
     status = parse_pose_file(text, handles, sequence);
     status.message = status.ok() ? "" : path + ": " + status.message;
   }
+  for (std::size_t k = 0; k < sequence.frames.size() && status.ok(); ++k)
+  {
+    poses.push_back(apply_edits(sequence.frames[k], handles, base));
+  }
+  frames_per_second = sequence.frames_per_second;
+  return status;
+}
+
+/// Read a sequence of poses from a file with a motion.
+Status read_motion_file(ExecutionContext& context, const std::string& path, const Handles& handles,
+  const Pose& base, std::vector<Pose>& poses, double& frames_per_second)
+{
+  MotionFile file;
+  HandleMotion motion;
+  Status status = file.fit(context, path, handles, motion);
+  if (status.ok() && !motion.sequence)
+  {
+    status = Status::invalid_input(path + " has no animation of joints");
+  }
+  for (int frame = 0; frame < motion.frames && status.ok(); ++frame)
+  {
+    poses.emplace_back();
+    const Status posed = motion.pose(base, frame, poses.back());
+    if (!posed.ok())
+    {
+      return posed;
+    }
+  }
+  frames_per_second = motion.frames_per_second;
+  return status;
+}
+
+Status read_poses(ExecutionContext& context, const std::string& path, const Handles& handles,
+  const Pose& base, GltfSkin& skin)
+{
+  std::vector<Pose> poses;
+  const bool is_motion = is_listed(file_extension(path), motion_extensions());
+  Status status = is_motion
+    ? read_motion_file(context, path, handles, base, poses, skin.frames_per_second)
+    : read_pose_file(path, handles, base, poses, skin.frames_per_second);
   if (!status.ok())
   {
     return status;
@@ -242,10 +285,9 @@ Status read_poses(const std::string& path, const Handles& handles, const Pose& b
   // Warnings of the last frame. Usually all frames have the same warnings.
   std::vector<std::string> transform_warnings;
   std::string unused;
-  for (const PoseEdits& edits : sequence.frames)
+  for (const Pose& pose : poses)
   {
     std::vector<Affine> transforms;
-    const Pose pose = apply_edits(edits, handles, base);
     const Status transform_status = skinning_transforms(handles, pose, transforms);
     transform_warnings = transform_status.warnings;
     unused = unused.empty() ? unused_stretch(pose, StretchUse::tails) : unused;
@@ -259,7 +301,6 @@ Status read_poses(const std::string& path, const Handles& handles, const Pose& b
   {
     status.warnings.push_back(unused);
   }
-  skin.frames_per_second = sequence.frames_per_second;
   return status;
 }
 
@@ -409,7 +450,7 @@ Status vtkGLTFSkinWriter::Execute(
       : this->Animation == MORPH
       ? Status::invalid_input(
           "an animation with morph targets needs input frames instead of a pose file")
-      : read_poses(this->PoseFileName, handles, pose, skin);
+      : read_poses(context, this->PoseFileName, handles, pose, skin);
   }
   else if (const std::string unused = unused_stretch(pose, StretchUse::tails); !unused.empty())
   {
@@ -434,6 +475,7 @@ Status vtkGLTFSkinWriter::Execute(
   }
   add_warnings(skin_status, written);
   add_warnings(status, written);
+  written.report.merge(status.report);
   if (!written.ok())
   {
     return written;

@@ -132,8 +132,9 @@ public:
   ///@}
 
   ///@{
-  /// Sequence of poses (.json, see vtkPoseHandles) that is written as an animation of the joints if
-  /// input 2 has no frames. Default: none.
+  /// Sequence of poses that is written as an animation of the joints if input 2 has no frames:
+  /// .json, or a file with a motion (.glb, .gltf, .bvh, .fbx, .dae), see vtkPoseHandles. Default:
+  /// none.
   vtkSetFilePathMacro(PoseFileName);
   vtkGetFilePathMacro(PoseFileName);
   ///@}

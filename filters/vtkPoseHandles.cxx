@@ -9,9 +9,8 @@
 #include "file_kind.h"
 #include "file_stamp.h"
 #include "frame_times.h"
-#include "gltf_data.h"
 #include "io/dmat.h"
-#include "pose/handle_hierarchy.h"
+#include "motion_data.h"
 #include "pose/pose_file.h"
 #include "pose/pose_matrix.h"
 
@@ -38,7 +37,7 @@ vtkStandardNewMacro(vtkPoseHandles);
 /// n times.
 struct vtkPoseHandles::Internals
 {
-  GltfFile gltf;
+  MotionFile motion;
   /// Source of the last warnings: the pose file, or an empty string for PoseJSON. It is stored so
   /// that the warnings of a source are issued only once.
   std::optional<std::string> warned_source;
@@ -159,12 +158,13 @@ int vtkPoseHandles::RequestInformation(
   vtkInformation* info = output->GetInformationObject(0);
   set_time_steps(info, {});
   // Ignore errors of the file or the text here; Execute() reports them.
-  if (this->HasExtension("glb gltf"))
+  if (this->HasExtension(motion_extensions()))
   {
-    if (this->Internal->gltf.read(this->FileName).ok())
+    ExecutionContext context;
+    HandleMotion motion;
+    if (this->Internal->motion.read(context, this->FileName, motion).ok())
     {
-      const GltfData& data = this->Internal->gltf.data();
-      set_frame_times(info, static_cast<int>(data.poses.size()), data.frames_per_second);
+      set_frame_times(info, motion.frames, motion.frames_per_second);
     }
     return 1;
   }
@@ -195,7 +195,7 @@ int vtkPoseHandles::RequestInformation(
 }
 
 Status vtkPoseHandles::Execute(
-  ExecutionContext&, vtkInformationVector** input, vtkInformationVector* output)
+  ExecutionContext& context, vtkInformationVector** input, vtkInformationVector* output)
 {
   auto* data = vtkPolyData::GetData(input[0], 0);
   auto* result = vtkPolyData::GetData(output, 0);
@@ -220,10 +220,11 @@ Status vtkPoseHandles::Execute(
   this->Sequence = false;
   this->FramesPerSecond = PoseSequence().frames_per_second;
   this->HasExpressions = false;
-  const bool from_text = !this->HasExtension("glb gltf dmat");
-  status = from_text             ? this->ReadText()
-    : this->HasExtension("dmat") ? this->ReadDMAT(handles, pose)
-                                 : this->ReadGLTF(handles, timed ? &time : nullptr, pose);
+  const bool from_text = !this->HasExtension("dmat") && !this->HasExtension(motion_extensions());
+  status = from_text ? this->ReadText()
+    : this->HasExtension("dmat")
+    ? this->ReadDMAT(handles, pose)
+    : this->ReadMotion(context, handles, timed ? &time : nullptr, pose);
   if (!status.ok())
   {
     return status;
@@ -296,39 +297,29 @@ Status vtkPoseHandles::ReadDMAT(const Handles& handles, Pose& pose)
         " does not exist; the file has 1 frame, frame 0");
 }
 
-/// Assign the transforms of one frame to the handles by name: the frame at `time`, or frame number
-/// Frame if `time` is null. Handles that are not joints follow their parents.
-Status vtkPoseHandles::ReadGLTF(const Handles& handles, const double* time, Pose& pose)
+/// Apply one frame of the motion in a file to the handles (see MotionFile): the frame at `time`, or
+/// frame number Frame if `time` is null.
+Status vtkPoseHandles::ReadMotion(
+  ExecutionContext& context, const Handles& handles, const double* time, Pose& pose)
 {
   const std::string path = this->FileName;
-  Status status = this->Internal->gltf.read(path);
+  HandleMotion motion;
+  Status status = this->Internal->motion.fit(context, path, handles, motion);
   if (!status.ok())
   {
     return status;
   }
-  const std::vector<std::string> warnings = status.warnings;
-  const GltfData& data = this->Internal->gltf.data();
-  // The pose from the transforms of the nodes; empty if there is an animation.
-  std::vector<Pose> single_frame;
-  if (data.poses.empty())
+  if (this->Internal->warned_source == path)
   {
-    std::vector<Index> cells;
-    Handles joints;
-    single_frame.resize(1);
-    status = to_handles(data.handles, joints, &cells);
-    if (status.ok())
-    {
-      status = to_pose(data.handles, joints, cells, single_frame[0]);
-    }
-    if (!status.ok())
-    {
-      return Status::invalid_input(path + " has no skin and therefore no pose");
-    }
+    status.warnings.clear();
   }
-  const std::vector<Pose>& frames = data.poses.empty() ? single_frame : data.poses;
-  this->NumberOfFrames = static_cast<int>(frames.size());
-  this->Sequence = !data.poses.empty();
-  this->FramesPerSecond = data.frames_per_second;
+  else if (!status.warnings.empty())
+  {
+    this->Internal->warned_source = path;
+  }
+  this->NumberOfFrames = motion.frames;
+  this->Sequence = motion.sequence;
+  this->FramesPerSecond = motion.frames_per_second;
   const int frame =
     time ? frame_at(*time, this->NumberOfFrames, this->FramesPerSecond) : this->Frame;
   if (frame < 0 || frame >= this->NumberOfFrames)
@@ -338,32 +329,8 @@ Status vtkPoseHandles::ReadGLTF(const Handles& handles, const double* time, Pose
       " frames, counted from 0");
   }
   const Pose base = pose;
-  std::size_t posed_count = 0;
-  for (const Index handle : parents_first(handles))
-  {
-    const auto h = static_cast<std::size_t>(handle);
-    const auto joint = std::find_if(data.handle_list.begin(), data.handle_list.end(),
-      [&](const Handle& each) { return each.name == handles[h].name; });
-    if (joint == data.handle_list.end())
-    {
-      follow_parent(handles, base, handle, pose);
-      continue;
-    }
-    pose[h].mode = HandleMode::full;
-    pose[h].transform = frames[frame][joint - data.handle_list.begin()].transform;
-    posed_count += 1;
-  }
-  if (posed_count == 0)
-  {
-    return Status::invalid_input(path + ": none of its joints has the name of a handle");
-  }
-  Status read_status;
-  if (this->Internal->warned_source != path)
-  {
-    read_status.warnings = warnings;
-    this->Internal->warned_source = path;
-  }
-  return read_status;
+  const Status posed = motion.pose(base, frame, pose);
+  return posed.ok() ? status : posed;
 }
 
 void vtkPoseHandles::PrintSelf(ostream& os, vtkIndent indent)

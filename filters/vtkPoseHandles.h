@@ -31,21 +31,26 @@
  * the time in seconds: "translate": ["0.2 * sin(6.28 * t)", 0, 0]. The header io/expression.h of
  * the kernels lists the functions. In a sequence t is the time of the frame: its index / fps.
  *
- * **Time.** The filter provides times to the pipeline. For a sequence or the animation of a glTF
- * file, these are the times of the frames; for expressions, the range from 0 to EndTime. If a time
+ * **Time.** The filter provides times to the pipeline. For a sequence or the motion of a file,
+ * these are the times of the frames; for expressions, the range from 0 to EndTime. If a time
  * is requested, the output is the frame at that time or the values of the expressions. If no time
  * is requested, Frame and Time are used.
  *
  * Errors: an invalid file, an unknown handle, an expression that cannot be parsed or has no finite
  * value at the requested time. Without FileName and PoseJSON the input is passed on.
  *
- * FileName may also name a .glb or .gltf file. Its animation, or the transforms of its nodes if
- * there is none, is assigned by the names of joints and handles (see vtkGLTFSkinReader). Handles
- * that are not joints follow their parents. FileName may also name a .dmat file of libigl, which
- * poses all handles, points before bones. For m handles in d dimensions (d = 3, or 2 in a plane)
- * the file contains a (d + 1) m x d matrix with one transposed transform per handle. Alternatively,
- * for b bones, it contains a 4 b x 1 matrix with one quaternion (x, y, z, w) per bone. The
- * quaternion is a rotation about the head, applied before the parent's rotation.
+ * **Motions.** FileName may also name a .glb, .gltf, .bvh, .fbx or .dae file (the last three are
+ * read by the library assimp in a separate process). Its first animation is assigned by the names
+ * of joints and handles. If the joints of a skin are at the handles, their transforms are used
+ * unchanged; without an animation, those of the nodes. Otherwise the motion is retargeted (see
+ * Retarget). Handles without a joint follow their parents. Report: motion (exact, retargeted),
+ * handles_without_joint[], joints_without_handle[].
+ *
+ * FileName may also name a .dmat file of libigl, which poses all handles, points before bones. For
+ * m handles in d dimensions (d = 3, or 2 in a plane) the file contains a (d + 1) m x d matrix with
+ * one transposed transform per handle. Alternatively, for b bones, it contains a 4 b x 1 matrix
+ * with one quaternion (x, y, z, w) per bone. The quaternion is a rotation about the head, applied
+ * before the parent's rotation.
  *
  * All other arrays are the input's own objects, so that downstream filters keep their bind.
  */
@@ -80,8 +85,9 @@ public:
   ///@}
 
   ///@{
-  /// Path of the pose file: .json, .dmat, or a .glb or .gltf file with an animation. At an update,
-  /// the file is read again if it has changed. If a path is set, PoseJSON is not used.
+  /// Path of the pose file: .json, .dmat, or a file with a motion (.glb, .gltf, .bvh, .fbx, .dae).
+  /// At an update, the file is read again if it has changed. If a path is set, PoseJSON is not
+  /// used.
   vtkSetFilePathMacro(FileName);
   vtkGetFilePathMacro(FileName);
   ///@}
@@ -135,7 +141,8 @@ private:
 
   struct Internals;
 
-  bindpose::Status ReadGLTF(const std::vector<bindpose::Handle>& handles, const double* time,
+  bindpose::Status ReadMotion(bindpose::ExecutionContext& context,
+    const std::vector<bindpose::Handle>& handles, const double* time,
     std::vector<bindpose::HandlePose>& pose);
   bindpose::Status ReadDMAT(
     const std::vector<bindpose::Handle>& handles, std::vector<bindpose::HandlePose>& pose);

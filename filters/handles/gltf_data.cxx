@@ -109,11 +109,12 @@ public:
       handle.ownership = this->has_no_influence(j) ? Ownership::none : Ownership::optional;
       for (int k = 1; this->is_duplicate(handles, handle); ++k)
       {
+        // The length is such that it changes the coordinates.
+        const double length = 0.01 * k * std::max(this->extent_, 1e-6 * handle.head.norm());
         const Vec3 bone_direction = this->joints_[j].rest.linear().col(1).stableNormalized();
         handle.kind = HandleKind::bone;
         handle.tail = handle.head +
-          0.01 * k * this->extent_ *
-            (bone_direction.squaredNorm() > 0.5 ? bone_direction : Vec3(Vec3::UnitY()));
+          length * (bone_direction.squaredNorm() > 0.5 ? bone_direction : Vec3(Vec3::UnitY()));
       }
       handles.push_back(handle);
     }
@@ -353,35 +354,6 @@ Status read_gltf(const std::string& path, GltfData& data)
     data.poses.push_back(joints.pose(frame.posed));
   }
   return status;
-}
-
-Status GltfFile::read(const std::string& path)
-{
-  const FileStamp::Time read_begin = FileStamp::Time::clock::now();
-  // Files that change during the read get stamps that are not valid for the next call.
-  const auto stamps_of = [&](const std::vector<std::string>& buffer_files)
-  {
-    std::vector<FileStamp> stamps{ FileStamp(path, read_begin) };
-    for (const std::string& file : buffer_files)
-    {
-      stamps.emplace_back(file, read_begin);
-    }
-    return stamps;
-  };
-  const std::vector<FileStamp> stamps = stamps_of(this->data_.buffer_files);
-  const bool is_unchanged =
-    std::equal(stamps.begin(), stamps.end(), this->stamps_.begin(), this->stamps_.end(),
-      [](const FileStamp& now, const FileStamp& stored) { return now.has_content_of(stored); });
-  if (!is_unchanged)
-  {
-    this->status_ = read_gltf(path, this->data_);
-    this->stamps_ = stamps_of(this->data_.buffer_files);
-    if (!this->status_.ok())
-    {
-      this->stamps_.clear();
-    }
-  }
-  return this->status_;
 }
 
 } // namespace bindpose

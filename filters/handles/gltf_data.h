@@ -2,7 +2,6 @@
 #define gltf_data_h
 
 #include "conversion.h"
-#include "file_stamp.h"
 #include "gltf/gltf_skin.h"
 
 #include <string>
@@ -62,22 +61,6 @@ struct GltfData
 
 /// Read a file; see vtkGLTFSkinReader.
 Status read_gltf(const std::string& path, GltfData& data);
-
-/// Caches a file for a filter that is updated frame by frame. The file is read again if it, or a
-/// file with its buffers, has changed.
-class GltfFile
-{
-public:
-  Status read(const std::string& path);
-  /// Return the data of the last read(). It is shared and must not be modified.
-  const GltfData& data() const { return this->data_; }
-
-private:
-  /// Stamps of the file from which data_ was read and of its buffer files.
-  std::vector<FileStamp> stamps_;
-  Status status_;
-  GltfData data_;
-};
 
 } // namespace bindpose
 

@@ -489,8 +489,9 @@ def deform(mesh: Mesh, handles: Handles, pose: Mapping[str, Any] | Path, *, weig
     pose : dict, str or path-like
         ``{"handles": {name: {"translate": [x, y, z], "rotate": {"axis": [x, y, z], "degrees": d}, …}}}`` or
         ``{"frames": [pose, …], "fps": n}``, as a dict or as a .json file. Numbers may be expressions in ``t``.
-        Alternatives are a .dmat file of libigl, and a .glb or .gltf file for its animation. A handle follows its
-        parent unless its entry has ``"space": "world"``; in a .json file this requires ``"version": 2``.
+        Alternatives are a .dmat file of libigl, and a .glb, .gltf, .bvh, .fbx or .dae file with a motion, whose joints
+        are matched to the handles by name. A handle follows its parent unless its entry has ``"space": "world"``; in a
+        .json file this requires ``"version": 2``.
     weights : (#V, #handles) array, optional
         Weights for a mesh of arrays.
     times : sequence of floats, optional

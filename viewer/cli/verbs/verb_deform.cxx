@@ -229,6 +229,13 @@ void run_deform(Session& session)
   {
     return;
   }
+  for (const char* key : { "motion", "handles_without_joint[]", "joints_without_handle[]" })
+  {
+    if (const Report::Value* value = pose->GetReport().find(key))
+    {
+      session.report().set(key, *value);
+    }
+  }
   // The number of frames of a sequence is in its file. For expressions and dynamic bodies, the
   // option --frames specifies the number.
   const bool dynamic = arguments.has("dynamics");

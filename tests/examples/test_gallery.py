@@ -8,7 +8,7 @@ from running import EXAMPLES, is_refused, numbers_of, script
 
 GALLERY = EXAMPLES / "gallery"
 NAMES = ["amount_of_insideness", "automatic_handles", "bent_elbow", "bent_furniture",
-         "boundary_and_parts", "candy_wrapper", "closing_holes", "colors_of_handles",
+         "boundary_and_parts", "candy_wrapper", "closing_holes", "clothes_on_a_body", "colors_of_handles",
          "cost_of_a_point", "cost_of_weights", "crowd", "cut_out_cartoon", "defect_classes", "disjoint_skeleton", "drag_only",
          "dragged_points", "extra_weights", "four_energies", "full_and_reduced", "growth", "handle_modes",
          "hull_segmentation", "image_rectangle", "jello", "jump_and_harmonic", "limbs_in_front", "mesh_independence",
@@ -522,6 +522,14 @@ def test_cost_of_weights(tmp_path):
         assert all(np.less(numbers[f"4 handles, {part}: seconds per handle"], numbers["4 handles, whole: seconds per handle"]))
     for peak, estimate in zip(numbers["MiB at the peak"], numbers["MiB estimated"]):
         assert 0.8 < estimate / peak < 1.4
+
+
+def test_clothes_on_a_body(tmp_path):
+    numbers = numbers_of("gallery/clothes_on_a_body.py", tmp_path)
+    assert numbers["nearest: largest weight of an arm bone"] > 0.9  # a hand is the nearest part
+    assert numbers["inpaint: largest weight of an arm bone"] < 0.01
+    assert numbers["inpaint: stretch of edges, largest"] < 0.5 * numbers["nearest: stretch of edges, largest"]
+    assert numbers["inpaint: largest relative gap"] <= 1e-6 and 0 < numbers["inpaint: matched fraction"] < 1
 
 
 def test_automatic_handles(tmp_path):

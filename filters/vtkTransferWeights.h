@@ -11,10 +11,11 @@
  * the target also sum to one.
  *
  * Use the method INPAINT if the target is a different surface, such as clothes over a body. Points
- * that match the surface of the mesh by distance and normal get the weights of its nearest point. The weights of all other points are solved for: the smoothest weights from 0 to 1 that
- * agree with the matched points, with a certificate (see inpaint_weights). Parts that are near each
- * other but not connected, such as a sleeve and the side of the body, do not exchange weights. The
- * target must have triangles or tets.
+ * that match the surface of the mesh by distance and normal get the weights of its nearest point.
+ * The weights of all other points are solved for: the smoothest weights from 0 to 1 that agree with
+ * the matched points, with a certificate (see inpaint_weights). Parts that are near each other but
+ * not connected, such as a sleeve and the side of the body, do not exchange weights. The target
+ * must have triangles or tets.
  *
  * **Input 0**: the target, any vtkPointSet. **Input 1**: the mesh with the point array `Weights`
  * (see vtkWeightsAlgorithm). **Output**: input 0 with a double point array of the same name and
@@ -28,9 +29,10 @@
  * several vertices at the same position may be used. The report counts only the piece. INPAINT
  * needs the whole target: the first process does the work.
  *
- * The result is cached until points, cells or weights of the mesh or the points of the target
- * change. An unchanged transfer returns the same array. GetNumberOfBinds() counts the transfers.
- * Each block of a composite target has its own cached result.
+ * The result is cached until an option, points, cells or weights of the mesh, or the points of the
+ * target change; with INPAINT, also until the cells of the target change. An unchanged transfer
+ * returns the same array. GetNumberOfBinds() counts the transfers. Each block of a composite target
+ * has its own cached result.
  *
  * Report: transfer (exact, barycentric or mixed), counts.{transferred_exact,
  * transferred_barycentric, transferred_nearest, transfer_misses} (a miss is farther from the mesh

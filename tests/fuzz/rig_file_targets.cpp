@@ -1,11 +1,13 @@
 #include "fuzz/rig_file_targets.h"
 
 #include "gltf/gltf_asset.h"
+#include "gltf/gltf_motion.h"
 #include "gltf/gltf_skin.h"
 #include "io/dmat.h"
 #include "io/expression.h"
 #include "io/tgf.h"
 #include "pose/pose_file.h"
+#include "pose/retarget.h"
 
 #include "fuzz/memory_file.h"
 #include "fuzz/status_checks.h"
@@ -121,11 +123,56 @@ void check_asset(std::string_view input)
   EXPECT_TRUE(read.ok()) << read.message;
   EXPECT_EQ(again.points().rows(), asset.points().rows());
 }
+
+/// Read the nodes as joints with a motion, and retarget the last frame to handles with their names.
+void check_motion(std::string_view input)
+{
+  const MemoryFile file(input);
+  GltfMotion motion;
+  const Status status = read_gltf_motion(file.path(), motion);
+  if (!status.ok())
+  {
+    expect_refused(status);
+    return;
+  }
+  expect_valid_messages(status);
+  EXPECT_EQ(motion.animated.size(), motion.joints.size());
+  Handles handles;
+  std::vector<MotionJoint> joints;
+  std::vector<Affine> rest, posed;
+  for (std::size_t j = 0; j < motion.joints.size(); ++j)
+  {
+    const GltfJoint& joint = motion.joints[j];
+    const Vec3 head = joint.rest.translation();
+    EXPECT_TRUE(joint.rest.inverse().matrix().allFinite());
+    joints.push_back({ joint.name, joint.parent, head });
+    handles.push_back(bone_handle(joint.name, 0.5 * head, 0.5 * head + Vec3(0, 1, 0)));
+    handles.back().parent = joint.parent;
+    rest.push_back(identity_affine());
+    posed.push_back(rest.back());
+    if (!motion.frames.empty())
+    {
+      ASSERT_EQ(motion.frames.back().posed.size(), motion.joints.size());
+      const Eigen::Affine3d map = motion.frames.back().posed[j] * joint.rest.inverse();
+      posed.back() = map.matrix().topRows<3>();
+    }
+    if (!(posed.back().cwiseAbs().maxCoeff() < 1e50 && head.cwiseAbs().maxCoeff() < 1e50))
+    {
+      return; // products may exceed the range of double; the filter checks the result
+    }
+  }
+  const Pose pose = Retarget(handles, joints).apply(Pose(handles.size()), posed, rest);
+  for (const HandlePose& each : pose)
+  {
+    EXPECT_TRUE(each.transform.allFinite());
+  }
+}
 } // namespace
 
 bool check_gltf(std::string_view input)
 {
   check_asset(input);
+  check_motion(input);
   const MemoryFile file(input);
   GltfSkin skin;
   const Status status = read_gltf_skin(file.path(), skin);

@@ -19,6 +19,7 @@
 #   hostile      weights and tets of synthetic models with severe defects
 #   real         weights and tets of an eighth of the real furniture models
 #   paraview     the plugin in ParaView
+#   blender      glTF files and the add-on in Blender; the add-on and bone heat on a quarter of the surfaces
 #   monkey       random events in the window, under sanitizers
 # Random seeds, the choice between remesh and embed, and the third, quarter, seventh or eighth of the work change every night.
 set -uo pipefail
@@ -27,6 +28,7 @@ install=yes
 . "$(dirname "${BASH_SOURCE[0]}")/../examples/setup.sh"
 nightly_packages="
 sweethome3d-furniture:820_real_furniture_models
+blender:tests_of_the_add-on_and_of_glTF_files
 clang:builds_the_fuzzers
 libclang-rt-14-dev:libFuzzer_and_the_sanitizers_of_clang
 mypy:checks_the_types_of_the_Python_package
@@ -184,6 +186,13 @@ paraview()
   "$root/tests/paraview.sh"
 }
 
+blender()
+{
+  ctest --test-dir "$build_dir" --no-tests=error --output-on-failure -R '^blender\.' &&
+    /usr/bin/python3 "$root/tests/blender/compare_bone_heat.py" --build "$build_dir" --slice "$(slice_of 4)/4" \
+      --markdown "$build_dir/nightly-bone-heat.md"
+}
+
 monkey()
 ( # five minutes of random events; the seed changes every night
   cmake --preset asan -S "$root" && ninja -C "$root/build-asan" bindpose-mesher bindpose_app_tests || return 1
@@ -195,7 +204,7 @@ monkey()
 parts=("$@")
 fuzz_slice=1/1
 [ $# -gt 0 ] || fuzz_slice=$(slice_of 7)/7
-[ $# -gt 0 ] || parts=(option permissive asan tidy types notebooks wheel quickstart surfaces weights unclean fuzz drags scale hostile real paraview monkey)
+[ $# -gt 0 ] || parts=(option permissive asan tidy types notebooks wheel quickstart surfaces weights unclean fuzz drags scale hostile real paraview blender monkey)
 for name in "${parts[@]}"; do
   part "$name" "$name"
 done

@@ -10,9 +10,11 @@ The program runs in the background; Escape cancels it.
 """
 
 import os
+import re
 import shutil
 import subprocess
 import tempfile
+import threading
 
 import bpy
 import numpy as np
@@ -93,10 +95,18 @@ def read_tgf(path):
 
 def shape_of(thing, context):
     """Return the points and polygons of a mesh object in world coordinates, with the modifiers that change its surface,
-    such as Mirror and Solidify."""
+    such as Mirror and Solidify, and without shape keys."""
+    for data in (thing, thing.data):
+        if data.library:
+            raise BindposeError(f"'{data.name}' is linked from another file; make it local first")
     ignored = [m for m in thing.modifiers if m.type in IGNORED_MODIFIERS and m.show_viewport]
+    shows_basis = thing.show_only_shape_key
+    key = thing.active_shape_key_index
     for modifier in ignored:
         modifier.show_viewport = False
+    if thing.data.shape_keys:
+        thing.show_only_shape_key = True
+        thing.active_shape_key_index = 0
     try:
         context.view_layer.update()
         evaluated = thing.evaluated_get(context.evaluated_depsgraph_get())
@@ -107,6 +117,9 @@ def shape_of(thing, context):
     finally:
         for modifier in ignored:
             modifier.show_viewport = True
+        if thing.data.shape_keys:
+            thing.show_only_shape_key = shows_basis
+            thing.active_shape_key_index = key
     if not polygons:
         raise BindposeError(f"the mesh '{thing.name}' has no faces")
     return points, polygons
@@ -120,8 +133,8 @@ def world_points(mesh, to_world):
 
 
 def deform_bones(armature):
-    """Return the deforming bones with a length, and their ends at rest in world coordinates. Of bones with the same ends
-    only the first is used."""
+    """Return the deforming bones with a length, and their ends at rest in world coordinates. Only the first of several
+    bones with the same ends is used."""
     bones, ends, found = [], [], set()
     for bone in armature.data.bones:
         head, tail = (tuple(armature.matrix_world @ end) for end in (bone.head_local, bone.tail_local))
@@ -135,18 +148,38 @@ def deform_bones(armature):
 
 
 def to_vertices(weights, shape_points, vertex_points):
-    """Return the rows of weights of the mesh's own vertices. Most modifiers keep them first; otherwise each vertex gets
-    the row of the nearest point of the shape."""
+    """Return the rows of weights of the mesh's own vertices. Most modifiers keep their number or keep them first; otherwise
+    each vertex gets the row of the nearest point of the shape."""
     count = len(vertex_points)
+    if count == len(shape_points):
+        return weights
     size = np.ptp(np.array(shape_points), axis=0).max()
     if count <= len(shape_points) and \
             np.abs(np.array(shape_points[:count]) - np.array(vertex_points)).max(initial=0) <= 1e-6 * size:
         return weights[:count]
-    tree = kdtree.KDTree(len(shape_points))
-    for index, point in enumerate(shape_points):
+    return weights[nearest(shape_points, vertex_points)]
+
+
+def nearest(points, queries):
+    """Return for each query the index of the nearest point."""
+    tree = kdtree.KDTree(len(points))
+    for index, point in enumerate(points):
         tree.insert(point, index)
     tree.balance()
-    return weights[[tree.find(point)[1] for point in vertex_points]]
+    return [tree.find(query)[1] for query in queries]
+
+
+def free_rows(weights, points):
+    """Return the rows of weights of the groups that are not locked, each with the sum one. A row of zeros is replaced by the
+    row of the nearest point that has weights."""
+    sums = weights.sum(axis=1)
+    given = np.nonzero(sums > WEIGHT_THRESHOLD)[0]
+    if len(given) == 0:
+        return weights
+    missing = np.nonzero(sums <= WEIGHT_THRESHOLD)[0]
+    rows = weights.copy()
+    rows[missing] = weights[given[nearest(points[given], points[missing])]] if len(missing) else 0
+    return rows / rows.sum(axis=1)[:, None]
 
 
 def set_vertex_groups(thing, names, weights):
@@ -157,9 +190,8 @@ def set_vertex_groups(thing, names, weights):
     kept = np.array([sum(entry.weight for entry in vertex.groups if entry.group in locked & bone_groups)
                      for vertex in thing.data.vertices])
     free = [k for k, name in enumerate(names) if groups[name].index not in locked]
-    rows = weights[:, free]
-    sums = rows.sum(axis=1)
-    rows = rows * (np.clip(1 - kept, 0, 1) / np.where(sums > 0, sums, 1))[:, None]
+    points = np.array([vertex.co[:] for vertex in thing.data.vertices])
+    rows = free_rows(weights[:, free], points) * np.clip(1 - kept, 0, 1)[:, None]
     for column, k in enumerate(free):
         group = groups[names[k]]
         group.remove(range(len(thing.data.vertices)))
@@ -168,10 +200,11 @@ def set_vertex_groups(thing, names, weights):
 
 
 def bind_armature(thing, armature):
-    """Make the armature the parent of the mesh, with a modifier, and keep the mesh at its place."""
-    place = thing.matrix_world.copy()
+    """Make the armature the parent of the mesh, with a modifier, and keep the position of the mesh."""
+    world_matrix = thing.matrix_world.copy()
     thing.parent = armature
-    thing.matrix_world = place
+    thing.parent_type = "OBJECT"
+    thing.matrix_world = world_matrix
     if not any(m.type == "ARMATURE" and m.object == armature for m in thing.modifiers):
         modifier = thing.modifiers.new("Armature", "ARMATURE")
         modifier.object = armature
@@ -209,18 +242,29 @@ def program_path(context):
     found = shutil.which(bpy.path.abspath(path))
     if not found:
         raise BindposeError(f"the program '{path}' is not found; set its path in the preferences of the add-on")
-    return found
+    return os.path.abspath(found)
+
+
+def object_named(name):
+    """Return an object that may have been deleted since the program was started."""
+    thing = bpy.data.objects.get(name)
+    if thing is None:
+        raise BindposeError(f"the object '{name}' is gone")
+    return thing
 
 
 class Job:
     """Runs of the program, one after the other, in a temporary folder."""
 
     def __init__(self, context, commands):
-        self.folder = tempfile.TemporaryDirectory(prefix="bindpose-")
         self.program = program_path(context)
+        self.folder = tempfile.TemporaryDirectory(prefix="bindpose-")
         self.commands = [list(words) for words in commands]
         self.count = len(self.commands)
         self.process = None
+        self.reader = None  # the thread that reads the messages of the process
+        self.messages = []
+        self.percent = 0
 
     def path(self, name):
         return os.path.join(self.folder.name, name)
@@ -231,18 +275,33 @@ class Job:
             code = self.process.poll()
             if code is None:
                 return False
-            lines = self.process.stderr.read().splitlines() or [f"the program ended with code {code}"]
+            self.reader.join()
             self.process = None
             if code not in (0, 3):  # 3: not converged, the result is written
-                raise BindposeError(lines[-1].split(": ", 1)[-1])
+                message = self.messages[-1] if self.messages else f"the program ended with code {code}"
+                raise BindposeError(message.split(": ", 1)[-1])
         if not self.commands:
             return True
-        self.process = subprocess.Popen([self.program, *self.commands.pop(0)], cwd=self.folder.name, text=True,
-                                        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        self.percent, self.messages = 0, []
+        self.process = subprocess.Popen([self.program, *self.commands.pop(0), "--progress", "lines"], cwd=self.folder.name,
+                                        text=True, encoding="utf-8", errors="replace", stdout=subprocess.DEVNULL,
+                                        stderr=subprocess.PIPE)
+        self.reader = threading.Thread(target=self.read_messages, args=(self.process.stderr,), daemon=True)
+        self.reader.start()
         return False
 
+    def read_messages(self, stream):
+        for line in stream:
+            step = re.match(r"progress (\d+) %", line)
+            if step:
+                self.percent = int(step[1])
+            elif line.strip():
+                self.messages.append(line.strip())
+
     def progress(self):
-        return (self.count - len(self.commands) - (self.process is not None)) / self.count
+        """Return the finished fraction of all commands."""
+        done = self.count - len(self.commands) - (self.process is not None)
+        return (done + (self.percent / 100 if self.process else 0)) / self.count
 
     def end(self):
         if self.process:
@@ -254,9 +313,18 @@ class Job:
 class BindposeOperator:
     """An operator that runs the program without blocking the window."""
 
-    bl_options = {"REGISTER", "UNDO"}
+    bl_options = {"UNDO"}
+    interactive = False
 
     def invoke(self, context, _event):
+        """Ask for the options. Blender then calls `execute`."""
+        self.interactive = True
+        return context.window_manager.invoke_props_dialog(self)
+
+    def execute(self, context):
+        return self.run_in_background(context) if self.interactive else self.run_to_the_end(context)
+
+    def run_in_background(self, context):
         try:
             self.job = self.start(context)
         except BindposeError as error:
@@ -268,31 +336,32 @@ class BindposeOperator:
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):
-        if event.type == "ESC":
-            self.close(context)
+        if event.type == "ESC" and event.value == "PRESS":
+            self.cancel(context)
             self.report({"INFO"}, "canceled")
             return {"CANCELLED"}
         if event.type != "TIMER":
             return {"PASS_THROUGH"}
-        context.window_manager.progress_update(100 * self.job.progress())
+        done = False
         try:
+            context.window_manager.progress_update(100 * self.job.progress())
             if not self.job.poll():
-                return {"RUNNING_MODAL"}
-            self.finish(context, self.job)
-        except BindposeError as error:
-            self.close(context)
+                return {"PASS_THROUGH"}
+            self.finish_in_object_mode(context, self.job)
+            done = True
+        except (BindposeError, RuntimeError, ReferenceError, OSError) as error:
             self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        self.close(context)
-        return {"FINISHED"}
+        self.cancel(context)
+        return {"FINISHED"} if done else {"CANCELLED"}
 
-    def close(self, context):
+    def cancel(self, context):
+        """End the program. Blender also calls this method when it ends the operator, for example to load a file."""
         self.job.end()
         context.window_manager.event_timer_remove(self.timer)
         context.window_manager.progress_end()
 
-    def execute(self, context):
-        """Run to the end, for scripts and without a window."""
+    def run_to_the_end(self, context):
+        """Run without a window, for scripts."""
         try:
             job = self.start(context)
         except BindposeError as error:
@@ -302,13 +371,29 @@ class BindposeOperator:
             while not job.poll():
                 if job.process:
                     job.process.wait()
-            self.finish(context, job)
-        except BindposeError as error:
+            self.finish_in_object_mode(context, job)
+        except (BindposeError, RuntimeError, OSError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         finally:
             job.end()
         return {"FINISHED"}
+
+    def finish_in_object_mode(self, context, job):
+        if context.mode != "OBJECT":
+            raise BindposeError("the result can only be used in Object Mode; run the command again")
+        self.finish(context, job)
+
+    @staticmethod
+    def start_job(context, commands, write_inputs):
+        """Return a job after `write_inputs(job)` has written its input files."""
+        job = Job(context, commands)
+        try:
+            write_inputs(job)
+        except (BindposeError, OSError) as error:
+            job.end()
+            raise BindposeError(str(error)) from None
+        return job
 
 
 class OBJECT_OT_bindpose_weights(BindposeOperator, bpy.types.Operator):
@@ -317,44 +402,51 @@ class OBJECT_OT_bindpose_weights(BindposeOperator, bpy.types.Operator):
     bl_idname = "object.bindpose_weights"
     bl_label = "With Bindpose Weights"
 
-    influences: bpy.props.IntProperty(name="Influences", description="Largest number of bones per vertex. 0: all",
-                                      default=0, min=0)
-    mirror: bpy.props.BoolProperty(name="Mirror", default=False,
-                                   description="Bones that are mirror images along x get mirrored weights")
+    influences: bpy.props.IntProperty(  # type: ignore[valid-type]
+        name="Influences", description="Largest number of bones per vertex. 0: all", default=0, min=0)
+    mirror: bpy.props.BoolProperty(  # type: ignore[valid-type]
+        name="Mirror", default=False, description="Bones that are mirror images along x get mirrored weights")
 
     @classmethod
     def poll(cls, context):
         active = context.active_object
-        return active is not None and active.type == "ARMATURE" and any(o.type == "MESH" for o in context.selected_objects)
+        return (context.mode == "OBJECT" and active is not None and active.type == "ARMATURE" and
+                any(o.type == "MESH" for o in context.selected_objects))
 
     def start(self, context):
-        self.armature = context.active_object
-        self.things = [thing for thing in context.selected_objects if thing.type == "MESH"]
-        self.bones, ends = deform_bones(self.armature)
+        self.armature = context.active_object.name
+        things = [thing for thing in context.selected_objects if thing.type == "MESH"]
+        shared = next((thing for thing in things if thing.data.users > 1), None)
+        if shared:
+            raise BindposeError(f"other objects use the mesh of '{shared.name}', too; make it a single user first")
+        self.things = [thing.name for thing in things]
+        self.bones, ends = deform_bones(context.active_object)
+        self.shapes = []
         commands = []
-        for index in range(len(self.things)):
+        for index in range(len(things)):
             words = ["weights", f"{index}.off", "--handles", "bones.vtp", "-o", f"{index}.dmat"]
             words += ["--maximum-influences", str(self.influences)] if self.influences else []
             commands.append(words + (["--mirror", "x"] if self.mirror else []))
-        job = Job(context, commands)
-        try:
+
+        def write_inputs(job):
             write_bones(job.path("bones.vtp"), ends)
-            self.shapes = []
-            for index, thing in enumerate(self.things):
+            for index, thing in enumerate(things):
                 points, polygons = shape_of(thing, context)
                 self.shapes.append(points)
                 write_off(job.path(f"{index}.off"), points, polygons)
-        except BindposeError:
-            job.end()
-            raise
-        return job
 
-    def finish(self, context, job):
-        for index, (thing, points) in enumerate(zip(self.things, self.shapes)):
+        return self.start_job(context, commands, write_inputs)
+
+    def finish(self, _context, job):
+        armature = object_named(self.armature)
+        for index, (name, points) in enumerate(zip(self.things, self.shapes)):
+            thing = object_named(name)
             weights = to_vertices(read_dmat(job.path(f"{index}.dmat")), points,
                                   world_points(thing.data, thing.matrix_world))
+            if len(weights) != len(thing.data.vertices):
+                raise BindposeError(f"the mesh '{name}' has changed; run the command again")
             set_vertex_groups(thing, self.bones, weights)
-            bind_armature(thing, self.armature)
+            bind_armature(thing, armature)
 
 
 class OBJECT_OT_bindpose_skeleton(BindposeOperator, bpy.types.Operator):
@@ -363,32 +455,35 @@ class OBJECT_OT_bindpose_skeleton(BindposeOperator, bpy.types.Operator):
     bl_idname = "object.bindpose_skeleton"
     bl_label = "Skeleton from Shape"
 
-    maximum_bones: bpy.props.IntProperty(name="Bones", description="Largest number of bones. 0: as many as the shape needs",
-                                         default=0, min=0)
+    maximum_bones: bpy.props.IntProperty(  # type: ignore[valid-type]
+        name="Bones", description="Largest number of bones. 0: as many as the shape needs", default=0, min=0)
 
     @classmethod
     def poll(cls, context):
-        return context.active_object is not None and context.active_object.type == "MESH"
+        return context.mode == "OBJECT" and context.active_object is not None and context.active_object.type == "MESH"
 
     def start(self, context):
-        self.thing = context.active_object
-        points, polygons = shape_of(self.thing, context)
-        job = Job(context, [["handles", "shape.off", "--maximum-bones", str(self.maximum_bones), "-o", "bones.tgf"]])
-        write_off(job.path("shape.off"), points, polygons)
-        return job
+        thing = context.active_object
+        self.mesh_name = thing.name
+
+        def write_inputs(job):
+            write_off(job.path("shape.off"), *shape_of(thing, context))
+
+        return self.start_job(
+            context, [["handles", "shape.off", "--maximum-bones", str(self.maximum_bones), "-o", "bones.tgf"]], write_inputs)
 
     def finish(self, context, job):
         points, bones = read_tgf(job.path("bones.tgf"))
         if not bones:
-            raise BindposeError(f"the mesh '{self.thing.name}' has no curve skeleton with bones")
-        make_armature(f"{self.thing.name} skeleton", points, bones, context)
+            raise BindposeError(f"the mesh '{self.mesh_name}' has no curve skeleton with bones")
+        make_armature(f"{self.mesh_name} skeleton", points, bones, context)
 
 
 class BindposePreferences(bpy.types.AddonPreferences):
     bl_idname = __name__
 
-    program: bpy.props.StringProperty(name="Program", subtype="FILE_PATH", default="bindpose",
-                                      description="Path of the program bindpose")
+    program: bpy.props.StringProperty(  # type: ignore[valid-type]
+        name="Program", subtype="FILE_PATH", default="bindpose", description="Path of the program bindpose")
 
     def draw(self, _context):
         self.layout.prop(self, "program")

@@ -130,4 +130,5 @@ def main():
         json.dump(found, file)
 
 
-main()
+if __name__ == "__main__":
+    main()

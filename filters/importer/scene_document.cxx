@@ -226,13 +226,13 @@ public:
         this->animated_.insert(animation.mChannels[c]->mNodeName.C_Str());
       }
     }
-    const int root = this->append_node(*this->scene_.mRootNode);
+    this->roots_ = { this->append_node(*this->scene_.mRootNode) };
     for (const auto& [id, node] : this->nodes_with_meshes_)
     {
       this->append_meshes(id, *node);
     }
     this->document_.json()["scene"] =
-      this->document_.append("scenes", { { "nodes", Json::array({ root }) } });
+      this->document_.append("scenes", { { "nodes", this->roots_ } });
     for (unsigned int a = 0; a < this->scene_.mNumAnimations; ++a)
     {
       this->append_animation(*this->scene_.mAnimations[a]);
@@ -298,16 +298,24 @@ private:
     {
       return;
     }
-    int skinned_node = id;
-    if (!rigid.empty())
-    {
-      skinned_node = this->document_.append("nodes", { { "name", name + " skinned" } });
-      this->document_.list("nodes")[id]["children"].push_back(skinned_node);
-    }
     Skin skin;
     for (const aiMesh* mesh : skinned)
     {
       this->add_joints(*mesh, skin);
+    }
+    int skinned_node = id;
+    if (!skin.nodes.empty() || !rigid.empty())
+    {
+      skinned_node = this->document_.append("nodes", { { "name", name + " skinned" } });
+    }
+    if (!skin.nodes.empty())
+    {
+      // The transform of a node does not move a skinned mesh.
+      this->roots_.push_back(skinned_node);
+    }
+    else if (!rigid.empty())
+    {
+      this->document_.list("nodes")[id]["children"].push_back(skinned_node);
     }
     const int mesh = this->append_mesh(name, skinned, skin.nodes.empty() ? nullptr : &skin);
     this->document_.list("nodes")[skinned_node]["mesh"] = mesh;
@@ -553,6 +561,7 @@ private:
 
   const aiScene& scene_;
   GltfDocument& document_;
+  std::vector<int> roots_; ///< nodes of the scene
   std::map<std::string, int> node_of_name_;
   std::set<std::string> animated_; ///< names of animated nodes
   std::vector<std::pair<int, const aiNode*>> nodes_with_meshes_;

@@ -2,9 +2,8 @@
 #include "pose/retarget.h"
 
 #include "pose/handle_hierarchy.h"
+#include "pose/rotation_fit.h"
 #include "pose/transform_parts.h"
-
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cctype>
@@ -91,28 +90,18 @@ std::vector<Eigen::Matrix3d> axis_rotations()
   return rotations;
 }
 
-/// Return the rotation R that minimizes the sum of |R from - to|^2 over pairs of directions.
+/// Return the rotation that best maps the first direction of each pair to the second. If it is not
+/// unique, it is near the smallest rotation of the first pair.
 Eigen::Matrix3d fit_directions(const std::vector<std::pair<Vec3, Vec3>>& pairs)
 {
-  if (pairs.size() == 1)
-  {
-    return minimal_rotation(pairs[0].first, pairs[0].second).toRotationMatrix();
-  }
+  Eigen::Matrix3d rotation = minimal_rotation(pairs[0].first, pairs[0].second).toRotationMatrix();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   for (const auto& [from, to] : pairs)
   {
-    covariance += to.stableNormalized() * from.stableNormalized().transpose();
+    covariance += from.stableNormalized() * to.stableNormalized().transpose();
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
-    covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  constexpr double least = 1e-6; // below this, all directions are on one line
-  if (svd.singularValues()[1] < least)
-  {
-    return minimal_rotation(pairs[0].first, pairs[0].second).toRotationMatrix();
-  }
-  Eigen::Matrix3d u = svd.matrixU();
-  u.col(2) *= (u * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
-  return u * svd.matrixV().transpose();
+  fit_rotation(covariance, rotation);
+  return rotation;
 }
 } // namespace
 

@@ -4,7 +4,6 @@
 #include "file_kind.h"
 #include "guarded_import.h"
 #include "pose/handle_hierarchy.h"
-#include "pose/retarget.h"
 
 #include "vtkPolyData.h"
 
@@ -34,7 +33,7 @@ std::vector<MotionJoint> to_joints(const Handles& handles)
 }
 
 /// Report whether every joint is at its handle, within float round-off or 1e-4 of the diagonal.
-bool fit_exactly(const Handles& handles, const std::vector<MotionJoint>& joints,
+bool are_at_handles(const Handles& handles, const std::vector<MotionJoint>& joints,
   const std::vector<Index>& joint_of_handle)
 {
   Box box;
@@ -154,9 +153,10 @@ Status MotionFile::fit(
     if (status.ok() && !list.empty())
     {
       const std::vector<MotionJoint> joints = to_joints(list);
-      if (bindpose::fit_exactly(handles, joints, joints_of_handles(handles, joints)))
+      const std::vector<Index> joint_of_handle = joints_of_handles(handles, joints);
+      if (are_at_handles(handles, joints, joint_of_handle))
       {
-        Status fitted = this->fit_exactly(path, handles, motion);
+        Status fitted = this->fit_exactly(path, handles, joints, joint_of_handle, motion);
         fitted.warnings.insert(
           fitted.warnings.begin(), status.warnings.begin(), status.warnings.end());
         return fitted;
@@ -167,12 +167,11 @@ Status MotionFile::fit(
   return status.ok() ? this->retarget(path, handles, motion) : status;
 }
 
-Status MotionFile::fit_exactly(
-  const std::string& path, const Handles& handles, HandleMotion& motion) const
+Status MotionFile::fit_exactly(const std::string& path, const Handles& handles,
+  const std::vector<MotionJoint>& joints, const std::vector<Index>& joint_of_handle,
+  HandleMotion& motion) const
 {
   const GltfData& data = this->rig_.data();
-  const std::vector<MotionJoint> joints = to_joints(data.handle_list);
-  const std::vector<Index> joint_of_handle = joints_of_handles(handles, joints);
   Status status =
     report_match(path, handles, joints, joint_of_handle, std::vector<char>(joints.size(), 1));
   status.report.set("motion", "exact");

@@ -5,10 +5,11 @@
 #include "cached_file.h"
 #include "gltf/gltf_motion.h"
 #include "gltf_data.h"
-#include "pose/pose.h"
+#include "pose/retarget.h"
 
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace bindpose
 {
@@ -49,7 +50,10 @@ public:
     HandleMotion& motion);
 
 private:
-  Status fit_exactly(const std::string& path, const Handles& handles, HandleMotion& motion) const;
+  /// Use the transforms of the first skin's joints unchanged.
+  Status fit_exactly(const std::string& path, const Handles& handles,
+    const std::vector<MotionJoint>& joints, const std::vector<Index>& joint_of_handle,
+    HandleMotion& motion) const;
   Status retarget(const std::string& path, const Handles& handles, HandleMotion& motion) const;
 
   CachedFile<GltfData> rig_{ [](ExecutionContext&, const std::string& path, GltfData& data)

@@ -260,16 +260,37 @@ std::string join_phrases(const std::vector<std::string>& phrases)
 
 // ---- The whole file ----------------------------------------------------------------------------
 
+/// Return the skin of the first mesh that has one, or -1 if no mesh has one.
+int first_skin(const tinygltf::Model& model)
+{
+  for (const tinygltf::Node& node : model.nodes)
+  {
+    if (node.mesh >= 0 && node.skin >= 0)
+    {
+      return node.skin;
+    }
+  }
+  return -1;
+}
+
 void read_model(const std::string& path, const tinygltf::Model& model, std::size_t file_size,
   GltfSkin& skin, Status& status)
 {
   const GltfAccessors accessors(model, file_size);
   const GltfNodes nodes = read_gltf_nodes(model);
-  const int skin_id = first_gltf_skin(model);
+  const int skin_id = first_skin(model);
   std::vector<int> joint_nodes;
   if (skin_id >= 0)
   {
-    GltfSkinJoints joints = read_gltf_joints(model, nodes, accessors, skin_id);
+    const tinygltf::Skin& from = gltf_element(model.skins, skin_id, "skin");
+    if (from.joints.empty())
+    {
+      throw GltfError("the skin has no joints");
+    }
+    std::vector<Eigen::Affine3d> rests = read_inverse_binds(accessors, from);
+    std::transform(rests.begin(), rests.end(), rests.begin(),
+      [](const Eigen::Affine3d& inverse_bind) { return inverse_bind.inverse(); });
+    GltfSkinJoints joints = read_gltf_joints(model, nodes, from.joints, rests);
     skin.joints = std::move(joints.joints);
     joint_nodes = std::move(joints.nodes);
   }

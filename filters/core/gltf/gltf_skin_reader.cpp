@@ -1,6 +1,5 @@
 #include "gltf/gltf_skin_reader.h"
 
-#include <algorithm>
 #include <set>
 
 namespace bindpose
@@ -110,32 +109,6 @@ GltfSkinJoints read_gltf_joints(const tinygltf::Model& model, const GltfNodes& n
     result.joints.push_back(joint);
   }
   return result;
-}
-
-GltfSkinJoints read_gltf_joints(
-  const tinygltf::Model& model, const GltfNodes& nodes, const GltfAccessors& accessors, int skin)
-{
-  const tinygltf::Skin& from = gltf_element(model.skins, skin, "skin");
-  if (from.joints.empty())
-  {
-    throw GltfError("the skin has no joints");
-  }
-  std::vector<Eigen::Affine3d> rests = read_inverse_binds(accessors, from);
-  std::transform(rests.begin(), rests.end(), rests.begin(),
-    [](const Eigen::Affine3d& inverse_bind) { return inverse_bind.inverse(); });
-  return read_gltf_joints(model, nodes, from.joints, rests);
-}
-
-int first_gltf_skin(const tinygltf::Model& model)
-{
-  for (const tinygltf::Node& node : model.nodes)
-  {
-    if (node.mesh >= 0 && node.skin >= 0)
-    {
-      return node.skin;
-    }
-  }
-  return -1;
 }
 
 Index read_gltf_weights(const GltfAccessors& accessors, const tinygltf::Primitive& primitive,

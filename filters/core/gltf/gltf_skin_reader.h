@@ -26,12 +26,6 @@ struct GltfSkinJoints
 /// @param rests joint-to-mesh transforms in the bind pose, see GltfJoint::rest
 GltfSkinJoints read_gltf_joints(const tinygltf::Model& model, const GltfNodes& nodes,
   const std::vector<int>& joint_nodes, const std::vector<Eigen::Affine3d>& rests);
-/// Return the joints of a skin, which must exist. Throw GltfError if it has no joints.
-GltfSkinJoints read_gltf_joints(
-  const tinygltf::Model& model, const GltfNodes& nodes, const GltfAccessors& accessors, int skin);
-
-/// Return the skin of the first node with a mesh and a skin, or -1 if there is no such node.
-int first_gltf_skin(const tinygltf::Model& model);
 
 /// For each vertex, pairs of joint (index into the skin's list) and weight above 0.
 using GltfInfluences = std::vector<std::vector<std::pair<Index, double>>>;

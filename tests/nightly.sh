@@ -4,6 +4,7 @@
 # parts:
 #   option       add an option to a scratch copy of the project
 #   permissive   build and test without GPL and AGPL parts and without OpenVDB
+#   includes     compile an eighth of the sources one by one
 #   asan         a third of the tests under the address and undefined-behavior sanitizers
 #   tidy         check the names in a quarter of the kernel files
 #   types        check the types and the documentation of the Python package
@@ -44,6 +45,9 @@ python3-venv:installs_the_wheel
 install_packages "$build_packages $test_packages $nightly_packages"
 # With these settings, the compiler cache ignores the folder, so the parts permissive and option recompile few files.
 export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1
+# Build only the tests that the parts use; tests/run.sh builds and runs all of them.
+build -DBINDPOSE_BUILD_TESTS=OFF
+build_targets=bindpose_core_tests
 build -DBINDPOSE_BUILD_TESTS=ON
 # The number of the night sets the seeds of the random tests and the slices. A failed test prints its seed.
 export BINDPOSE_FUZZ_NIGHT=${BINDPOSE_FUZZ_NIGHT:-$(($(date +%s) / 86400))}
@@ -83,11 +87,20 @@ asan()
 )
 
 permissive()
-{ # without unity builds, because compiling several files as one hides a missing #include
-  cmake -S "$root" -B "$root/build-permissive" -G Ninja -DBINDPOSE_PERMISSIVE=ON -DBINDPOSE_WITH_OPENVDB=OFF \
-    -DBINDPOSE_BUILD_TESTS=ON &&
+{
+  cmake -S "$root" -B "$root/build-permissive" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON \
+    -DBINDPOSE_PERMISSIVE=ON -DBINDPOSE_WITH_OPENVDB=OFF -DBINDPOSE_BUILD_TESTS=ON &&
     ninja -C "$root/build-permissive" bindpose bindpose_core_tests bindpose_filter_tests || return 1
   under_xvfb ctest --test-dir "$root/build-permissive" --no-tests=error --output-on-failure -j "$(nproc)" -R '^(core|filters)\.'
+}
+
+includes()
+{ # unity builds compile several files as one, which hides a missing #include
+  local folder="$root/build-single"
+  cmake -S "$root" -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE="-O0 -DNDEBUG" \
+    -DCMAKE_UNITY_BUILD=OFF -DBINDPOSE_BUILD_TESTS=ON &&
+    ninja -C "$folder" -t targets all | sed -n 's/: CXX_COMPILER__.*//p' | awk "NR % 8 == $(slice_of 8) - 1" |
+    xargs ninja -C "$folder"
 }
 
 option()
@@ -204,7 +217,7 @@ monkey()
 parts=("$@")
 fuzz_slice=1/1
 [ $# -gt 0 ] || fuzz_slice=$(slice_of 7)/7
-[ $# -gt 0 ] || parts=(option permissive asan tidy types notebooks wheel quickstart surfaces weights unclean fuzz drags scale hostile real paraview blender monkey)
+[ $# -gt 0 ] || parts=(option permissive includes asan tidy types notebooks wheel quickstart surfaces weights unclean fuzz drags scale hostile real paraview blender monkey)
 for name in "${parts[@]}"; do
   part "$name" "$name"
 done

@@ -1,11 +1,11 @@
-// Connects the kernel of gltf/gltf_asset.h to VTK. asset_file.h reads the file; gltf_data.h
+// Connects the kernel of gltf_edit/gltf_asset.h to VTK. asset_file.h reads the file; gltf_data.h
 // converts joints to handles.
 #include "vtkAssetReader.h"
 
 #include "asset_file.h"
 #include "base/execution.h"
 #include "conversion.h"
-#include "gltf/gltf_asset.h"
+#include "gltf_edit/gltf_asset.h"
 #include "gltf_data.h"
 
 #include "vtkInformation.h"

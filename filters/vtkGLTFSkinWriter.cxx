@@ -1,12 +1,12 @@
-// Connects the kernels of gltf/gltf_skin.h and gltf/gltf_asset.h to VTK. They write the file. This
-// filter converts the mesh to triangles, the handles to joints, and the frames to positions of
+// Connects the kernels of gltf/gltf_skin.h and gltf_edit/gltf_asset.h to VTK. They write the file.
+// This filter converts the mesh to triangles, the handles to joints, and the frames to positions of
 // points and joints.
 #include "vtkGLTFSkinWriter.h"
 
 #include "asset_file.h"
 #include "base/execution.h"
 #include "file_kind.h"
-#include "gltf/gltf_asset.h"
+#include "gltf_edit/gltf_asset.h"
 #include "gltf_data.h"
 #include "io/atomic_file.h"
 #include "io/text_scanner.h"

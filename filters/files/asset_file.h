@@ -2,7 +2,7 @@
 #define asset_file_h
 
 #include "base/execution.h"
-#include "gltf/gltf_asset.h"
+#include "gltf_edit/gltf_asset.h"
 
 #include <string>
 

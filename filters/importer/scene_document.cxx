@@ -1,8 +1,8 @@
 #include "scene_document.h"
 
 #include "base/status.h"
-#include "gltf/gltf_joints.h"
-#include "gltf/gltf_weights.h"
+#include "gltf_edit/gltf_joints.h"
+#include "gltf_edit/gltf_weights.h"
 
 #include <assimp/GltfMaterial.h>
 #include <assimp/material.h>

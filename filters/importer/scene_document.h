@@ -3,7 +3,7 @@
 
 // A scene of assimp as a glTF document.
 
-#include "gltf/gltf_document.h"
+#include "gltf_edit/gltf_document.h"
 
 #include <string>
 

@@ -1,6 +1,6 @@
 #include "fuzz/mesh_file_targets.h"
 
-#include "gltf/gltf_asset.h"
+#include "gltf_edit/gltf_asset.h"
 #include "io/medit.h"
 #include "io/obj.h"
 #include "io/off.h"

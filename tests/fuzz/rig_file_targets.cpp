@@ -1,6 +1,6 @@
 #include "fuzz/rig_file_targets.h"
 
-#include "gltf/gltf_asset.h"
+#include "gltf_edit/gltf_asset.h"
 #include "gltf/gltf_motion.h"
 #include "gltf/gltf_skin.h"
 #include "io/dmat.h"

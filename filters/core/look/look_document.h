@@ -3,7 +3,7 @@
 
 // A mesh with a look as a glTF document.
 
-#include "gltf/gltf_document.h"
+#include "gltf_edit/gltf_document.h"
 #include "io/mesh_look.h"
 #include "io/polygon_mesh.h"
 

@@ -3,7 +3,7 @@
 
 // Materials of OBJ and PLY files in a glTF document.
 
-#include "gltf/gltf_document.h"
+#include "gltf_edit/gltf_document.h"
 
 #include <map>
 #include <string>

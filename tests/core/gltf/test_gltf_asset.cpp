@@ -1,6 +1,6 @@
 // New skins for glTF files: the rest pose and posed shapes according to the written file, and the
 // values of everything that is kept.
-#include "gltf/gltf_asset.h"
+#include "gltf_edit/gltf_asset.h"
 #include "gltf/gltf_model.h"
 
 #include "support/files.h"

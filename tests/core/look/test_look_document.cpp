@@ -1,5 +1,5 @@
 // Meshes with a look as glTF documents: vertices, materials and pictures.
-#include "gltf/gltf_asset.h"
+#include "gltf_edit/gltf_asset.h"
 #include "io/obj.h"
 #include "look/look_document.h"
 #include "look/mtl_materials.h"

@@ -1,11 +1,11 @@
-#include "gltf/gltf_asset.h"
+#include "gltf_edit/gltf_asset.h"
 
 #include "geometry/simplex_locator.h"
-#include "gltf/gltf_animation.h"
-#include "gltf/gltf_joints.h"
+#include "gltf_edit/gltf_animation.h"
+#include "gltf_edit/gltf_joints.h"
 #include "gltf/gltf_model.h"
-#include "gltf/gltf_pose_error.h"
-#include "gltf/gltf_weights.h"
+#include "gltf_edit/gltf_pose_error.h"
+#include "gltf_edit/gltf_weights.h"
 #include "io/text_scanner.h"
 
 #include <algorithm>

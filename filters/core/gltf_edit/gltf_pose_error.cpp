@@ -1,4 +1,4 @@
-#include "gltf/gltf_pose_error.h"
+#include "gltf_edit/gltf_pose_error.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "gltf/gltf_document.h"
+#include "gltf_edit/gltf_document.h"
 
 #include "gltf/gltf_model.h"
 #include "io/text_scanner.h"

@@ -1,4 +1,4 @@
-#include "gltf/gltf_weights.h"
+#include "gltf_edit/gltf_weights.h"
 
 #include <algorithm>
 #include <string>

@@ -2,11 +2,11 @@
 // an animation.
 #include "gltf/gltf_skin.h"
 
-#include "gltf/gltf_animation.h"
-#include "gltf/gltf_document.h"
-#include "gltf/gltf_joints.h"
-#include "gltf/gltf_pose_error.h"
-#include "gltf/gltf_weights.h"
+#include "gltf_edit/gltf_animation.h"
+#include "gltf_edit/gltf_document.h"
+#include "gltf_edit/gltf_joints.h"
+#include "gltf_edit/gltf_pose_error.h"
+#include "gltf_edit/gltf_weights.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "gltf/gltf_animation.h"
+#include "gltf_edit/gltf_animation.h"
 
 #include <algorithm>
 #include <string>

@@ -1,4 +1,4 @@
-#include "gltf/gltf_joints.h"
+#include "gltf_edit/gltf_joints.h"
 
 #include <algorithm>
 

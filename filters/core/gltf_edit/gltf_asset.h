@@ -1,15 +1,15 @@
-#ifndef bindpose_gltf_gltf_asset_h
-#define bindpose_gltf_gltf_asset_h
+#ifndef bindpose_gltf_edit_gltf_asset_h
+#define bindpose_gltf_edit_gltf_asset_h
 
 // A glTF file whose meshes get a new skin. Everything else in the file is kept.
 
 #include "base/execution.h"
 #include "geometry/mesh.h"
-#include "gltf/gltf_document.h"
-#include "gltf/gltf_joints.h"
+#include "gltf_edit/gltf_document.h"
+#include "gltf_edit/gltf_joints.h"
 #include "gltf/gltf_scene_meshes.h"
 #include "gltf/gltf_skin.h"
-#include "gltf/gltf_weights.h"
+#include "gltf_edit/gltf_weights.h"
 
 #include <optional>
 #include <string>

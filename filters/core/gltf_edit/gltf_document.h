@@ -1,5 +1,5 @@
-#ifndef bindpose_gltf_gltf_document_h
-#define bindpose_gltf_gltf_document_h
+#ifndef bindpose_gltf_edit_gltf_document_h
+#define bindpose_gltf_edit_gltf_document_h
 
 // The JSON text and the binary data of a glTF file, for edits that keep everything else.
 

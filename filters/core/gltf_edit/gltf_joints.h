@@ -1,9 +1,9 @@
-#ifndef bindpose_gltf_gltf_joints_h
-#define bindpose_gltf_gltf_joints_h
+#ifndef bindpose_gltf_edit_gltf_joints_h
+#define bindpose_gltf_edit_gltf_joints_h
 
 // Joints of a skin as nodes of a glTF document.
 
-#include "gltf/gltf_document.h"
+#include "gltf_edit/gltf_document.h"
 #include "gltf/gltf_skin.h"
 
 #include <vector>

@@ -1,10 +1,10 @@
-#ifndef bindpose_gltf_gltf_weights_h
-#define bindpose_gltf_gltf_weights_h
+#ifndef bindpose_gltf_edit_gltf_weights_h
+#define bindpose_gltf_edit_gltf_weights_h
 
 // The weights of a skin in the form in which glTF stores them.
 
 #include "geometry/mesh.h"
-#include "gltf/gltf_document.h"
+#include "gltf_edit/gltf_document.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,12 +1,12 @@
-#ifndef bindpose_gltf_gltf_animation_h
-#define bindpose_gltf_gltf_animation_h
+#ifndef bindpose_gltf_edit_gltf_animation_h
+#define bindpose_gltf_edit_gltf_animation_h
 
 // The frames of a skin as an animation of a glTF document.
 
 #include "base/execution.h"
-#include "gltf/gltf_document.h"
-#include "gltf/gltf_joints.h"
-#include "gltf/gltf_pose_error.h"
+#include "gltf_edit/gltf_document.h"
+#include "gltf_edit/gltf_joints.h"
+#include "gltf_edit/gltf_pose_error.h"
 #include "gltf/gltf_skin.h"
 
 namespace bindpose

@@ -1,12 +1,12 @@
-#ifndef bindpose_gltf_gltf_pose_error_h
-#define bindpose_gltf_gltf_pose_error_h
+#ifndef bindpose_gltf_edit_gltf_pose_error_h
+#define bindpose_gltf_edit_gltf_pose_error_h
 
 // The error of a pose in a glTF file. The causes are rounding to floats, dropped weights, and nodes
 // that contain only translation, rotation and scale.
 
 #include "geometry/mesh.h"
 #include "gltf/gltf_skin.h"
-#include "gltf/gltf_weights.h"
+#include "gltf_edit/gltf_weights.h"
 
 #include <vector>
 

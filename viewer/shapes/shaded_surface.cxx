@@ -115,10 +115,14 @@ ShadedSurface::ShadedSurface(vtkPolyData* surface, double feature_angle)
   DrawnTriangles drawn = triangles_of(surface);
   this->triangles_ = std::move(drawn.triangles);
   this->input_cells_ = std::move(drawn.cells);
-  this->input_points_ =
+  SplitVertices split =
     split_sharp_edges(to_points(surface).view(), feature_angle, this->triangles_);
+  this->input_points_ = std::move(split.originals);
+  this->normal_ids_ = std::move(split.normals);
+  this->normal_count_ = split.normal_count;
+  this->shared_normals_.resize(this->normal_ids_.empty() ? 0 : split.normal_count, 3);
   const auto count = static_cast<vtkIdType>(this->input_points_.size());
-  this->find_triangles_of_points();
+  this->find_triangles_of_normals();
   this->display_ = to_polydata(Points(count, 3), this->triangles_);
   this->normals_->SetName("Normals");
   this->normals_->SetNumberOfComponents(3);
@@ -168,23 +172,27 @@ void ShadedSurface::move(PointsView points)
   this->display_->Modified();
 }
 
-void ShadedSurface::find_triangles_of_points()
+void ShadedSurface::find_triangles_of_normals()
 {
-  const auto count = static_cast<Index>(this->input_points_.size());
-  this->first_triangle_.assign(static_cast<std::size_t>(count) + 1, 0);
+  const auto normal_of = [this](Index corner)
+  {
+    const Index v = this->triangles_.data()[corner];
+    return this->normal_ids_.empty() ? v : this->normal_ids_[v];
+  };
+  this->first_triangle_.assign(static_cast<std::size_t>(this->normal_count_) + 1, 0);
   for (Index k = 0; k < this->triangles_.size(); ++k)
   {
-    ++this->first_triangle_[this->triangles_.data()[k] + 1];
+    ++this->first_triangle_[normal_of(k) + 1];
   }
-  for (Index v = 0; v < count; ++v)
+  for (Index n = 0; n < this->normal_count_; ++n)
   {
-    this->first_triangle_[v + 1] += this->first_triangle_[v];
+    this->first_triangle_[n + 1] += this->first_triangle_[n];
   }
   std::vector<Index> next(this->first_triangle_.begin(), this->first_triangle_.end() - 1);
-  this->triangles_of_points_.resize(static_cast<std::size_t>(this->triangles_.size()));
+  this->triangles_of_normals_.resize(static_cast<std::size_t>(this->triangles_.size()));
   for (Index k = 0; k < this->triangles_.size(); ++k)
   {
-    this->triangles_of_points_[next[this->triangles_.data()[k]]++] = k / 3;
+    this->triangles_of_normals_[next[normal_of(k)]++] = k / 3;
   }
   this->triangle_normals_.resize(this->triangles_.rows(), 3);
 }
@@ -212,26 +220,31 @@ void ShadedSurface::update_normals()
       }
     });
   float* to = this->normals_->GetPointer(0);
-  parallel_for(context, positions->GetNumberOfTuples(), 4096,
+  float* smooth = this->normal_ids_.empty() ? to : this->shared_normals_.data();
+  parallel_for(context, this->normal_count_, 4096,
     [&](Index begin, Index end)
     {
-      for (Index v = begin; v < end; ++v)
+      for (Index n = begin; n < end; ++n)
       {
         double x = 0.0, y = 0.0, z = 0.0;
-        for (Index k = this->first_triangle_[v]; k < this->first_triangle_[v + 1]; ++k)
+        for (Index k = this->first_triangle_[n]; k < this->first_triangle_[n + 1]; ++k)
         {
-          const double* normal = normals + 3 * this->triangles_of_points_[k];
+          const double* normal = normals + 3 * this->triangles_of_normals_[k];
           x += normal[0];
           y += normal[1];
           z += normal[2];
         }
         const double length = std::sqrt(x * x + y * y + z * z);
         const double scale = length > 0.0 ? 1.0 / length : 0.0;
-        to[3 * v] = static_cast<float>(scale * x);
-        to[3 * v + 1] = static_cast<float>(scale * y);
-        to[3 * v + 2] = length > 0.0 ? static_cast<float>(scale * z) : 1.0F;
+        smooth[3 * n] = static_cast<float>(scale * x);
+        smooth[3 * n + 1] = static_cast<float>(scale * y);
+        smooth[3 * n + 2] = length > 0.0 ? static_cast<float>(scale * z) : 1.0F;
       }
     });
+  for (std::size_t v = 0; v < this->normal_ids_.size(); ++v)
+  {
+    std::copy_n(smooth + 3 * this->normal_ids_[v], 3, to + 3 * v);
+  }
   this->normals_->Modified();
 }
 

@@ -20,6 +20,9 @@ namespace bindpose
 /// the initial shape. Moving the vertices then costs one pass over triangles and vertices, so that
 /// a shape can be bent while the mouse moves.
 ///
+/// The two sides of a seam, where the input has several points at one position, share normals if
+/// the seam is not a sharp edge.
+///
 /// Polygons are triangulated; vertex and line cells are left out. Triangles are not reoriented:
 /// lighting is two-sided, and neighbors with opposite orientation are separated by a sharp edge.
 class ShadedSurface
@@ -49,7 +52,7 @@ public:
   void move(PointsView points);
 
 private:
-  void find_triangles_of_points();
+  void find_triangles_of_normals();
   void update_normals();
 
   vtkSmartPointer<vtkPolyData> input_; ///< the input's points and cells, without its arrays
@@ -57,11 +60,17 @@ private:
   std::vector<Index> input_points_;
   std::vector<Index> input_cells_; ///< input cell of each triangle
   Triangles triangles_;
-  /// Index of each point's first entry in triangles_of_points_; at the end the total number of
+  Index normal_count_ = 0;
+  /// Index of the normal of each drawn point; empty: normal v belongs to point v. Points on both
+  /// sides of a seam share a normal.
+  std::vector<Index> normal_ids_;
+  /// Index of each normal's first entry in triangles_of_normals_; at the end the total number of
   /// entries.
   std::vector<Index> first_triangle_;
-  std::vector<Index> triangles_of_points_; ///< triangles at each point, in ascending order
+  std::vector<Index> triangles_of_normals_; ///< triangles of each normal, in ascending order
   Points triangle_normals_; ///< temporary
+  /// Temporary; not used if normal_ids_ is empty.
+  Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> shared_normals_;
   vtkNew<vtkFloatArray> normals_; ///< normals of the drawn points
 };
 

@@ -8,16 +8,31 @@
 namespace bindpose
 {
 
+/// Vertices that are split along sharp edges.
+struct SplitVertices
+{
+  std::vector<Index> originals; ///< original vertex of each new vertex, ascending
+  Index normal_count = 0;
+  /// Index of the normal of each new vertex. Vertices on both sides of a smooth seam share one.
+  /// Empty: normal v belongs to vertex v.
+  std::vector<Index> normals;
+};
+
 /// Duplicate the vertices along sharp edges, so that normals can be averaged at each vertex without
 /// smoothing across these edges. The triangles at a vertex form groups: two triangles are in one
 /// group if they share an edge at the vertex, no third triangle has this edge, and their normals
 /// differ by less than the feature angle. Each group gets a vertex of its own. Vertices that no
 /// triangle uses are dropped. vtkPolyDataNormals splits in the same way, on one core.
 ///
+/// At a seam, for example of textures, an edge has two copies with vertices of their own at the
+/// same positions, and one triangle at each copy. The vertices stay apart, but if the edge is not
+/// sharp, they share a normal, so that the shading does not show the seam.
+///
 /// @param feature_angle  degrees, in (0, 180]
 /// @param triangles      #F x 3, input and output: vertex ids; on output, ids of the new vertices
-/// @return the original vertex of each new vertex, ascending. Cost: O(#V + #F), on all cores.
-std::vector<Index> split_sharp_edges(PointsView points, double feature_angle, Triangles& triangles);
+/// @return the new vertices. Cost: O(#V + #F), on all cores, and a sort of the vertices of edges
+/// with one triangle.
+SplitVertices split_sharp_edges(PointsView points, double feature_angle, Triangles& triangles);
 
 } // namespace bindpose
 

@@ -154,6 +154,88 @@ TEST(ShadedSurface, TakesOtherArraysOfTheSameMeshAndGoesBackToRest)
   }
 }
 
+namespace
+{
+/// Give every triangle in `apart` vertices of its own, at the same positions.
+TriangleMesh with_seams(const TriangleMesh& mesh, const std::vector<Index>& apart)
+{
+  TriangleMesh result = mesh;
+  for (const Index t : apart)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const Index v = result.points.rows();
+      result.points.conservativeResize(v + 1, 3);
+      result.points.row(v) = mesh.points.row(mesh.triangles(t, k));
+      result.triangles(t, k) = v;
+    }
+  }
+  return result;
+}
+
+/// Return the normal that is drawn at a corner of a triangle.
+Vec3 corner_normal(const ShadedSurface& surface, Index triangle, int corner)
+{
+  Vec3 normal;
+  surface.polydata()->GetPointData()->GetNormals()->GetTuple(
+    surface.triangles()(triangle, corner), normal.data());
+  return normal;
+}
+} // namespace
+
+TEST(ShadedSurface, SeamsDoNotChangeNormals)
+{
+  const TriangleMesh mesh = test::join(test::cube(), test::sphere(2, 1.0, Vec3(3, 0, 0)));
+  std::vector<Index> some, all;
+  for (Index t = 0; t < mesh.triangles.rows(); ++t)
+  {
+    all.push_back(t);
+    if (t % 5 < 2)
+    {
+      some.push_back(t);
+    }
+  }
+  const Points bent =
+    mesh.points.array() + 0.2 * mesh.points.col(1).array().square().replicate(1, 3);
+  ShadedSurface whole(to_polydata(mesh.points, mesh.triangles));
+  whole.move(bent);
+  for (const std::vector<Index>& apart : { some, all })
+  {
+    const TriangleMesh seams = with_seams(mesh, apart);
+    ShadedSurface surface(to_polydata(seams.points, seams.triangles));
+    Points moved =
+      seams.points.array() + 0.2 * seams.points.col(1).array().square().replicate(1, 3);
+    surface.move(moved);
+    for (Index t = 0; t < mesh.triangles.rows(); ++t)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        EXPECT_LT((corner_normal(surface, t, k) - corner_normal(whole, t, k)).norm(), 1e-6);
+        EXPECT_EQ(surface.input_points()[surface.triangles()(t, k)], seams.triangles(t, k));
+      }
+    }
+  }
+}
+
+TEST(ShadedSurface, ASurfaceAtTheSamePlaceIsNoSeam)
+{
+  // A part of a sphere, and the same part inside out. Their boundaries are at the same place.
+  TriangleMesh sphere = test::sphere(2);
+  sphere.triangles.conservativeResize(sphere.triangles.rows() / 2, 3);
+  TriangleMesh both = test::join(sphere, sphere);
+  both.triangles.bottomRows(sphere.triangles.rows())
+    .col(0)
+    .swap(both.triangles.bottomRows(sphere.triangles.rows()).col(1));
+  const ShadedSurface surface(to_polydata(both.points, both.triangles));
+  for (vtkIdType v = 0; v < surface.polydata()->GetNumberOfPoints(); ++v)
+  {
+    const Vec3 normal(surface.polydata()->GetPointData()->GetNormals()->GetTuple3(v));
+    const Vec3 position(surface.polydata()->GetPoint(v));
+    const double side = surface.input_points()[v] < sphere.points.rows() ? 1.0 : -1.0;
+    EXPECT_GT(side * normal.dot(position), 0.8);
+  }
+}
+
 TEST(ShadedSurface, SharesArraysWhereNoPointIsDoubled)
 {
   const TriangleMesh sphere = test::sphere(3);

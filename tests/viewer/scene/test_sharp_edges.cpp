@@ -41,7 +41,8 @@ Triangles split_by_vtk(const TriangleMesh& mesh, double angle)
 void expect_the_same_split(const TriangleMesh& mesh, double angle)
 {
   Triangles our_split = mesh.triangles;
-  const std::vector<Index> originals = split_sharp_edges(mesh.points, angle, our_split);
+  const SplitVertices split = split_sharp_edges(mesh.points, angle, our_split);
+  const std::vector<Index>& originals = split.originals;
   EXPECT_TRUE(std::is_sorted(originals.begin(), originals.end()));
   const Triangles vtk_split = split_by_vtk(mesh, angle);
   // Each vertex of our split corresponds to exactly one vertex of VTK's split, and vice versa.
@@ -97,6 +98,6 @@ TEST(SharpEdges, SplitsLikeVtk)
 TEST(SharpEdges, NothingIsHarmless)
 {
   Triangles none(0, 3);
-  EXPECT_TRUE(split_sharp_edges(Points(0, 3), 50.0, none).empty());
-  EXPECT_TRUE(split_sharp_edges(Points(Points::Zero(4, 3)), 50.0, none).empty());
+  EXPECT_TRUE(split_sharp_edges(Points(0, 3), 50.0, none).originals.empty());
+  EXPECT_TRUE(split_sharp_edges(Points(Points::Zero(4, 3)), 50.0, none).originals.empty());
 }

@@ -158,7 +158,8 @@ private:
   {
     const bool is_file = texture.mHeight == 0; // otherwise raw pixels
     return is_file ? this->document_.append_image(
-                       std::string(reinterpret_cast<const char*>(texture.pcData), texture.mWidth))
+                       std::string(reinterpret_cast<const char*>(texture.pcData), texture.mWidth),
+                       texture.mFilename.C_Str())
                    : -1;
   }
 

@@ -3,9 +3,11 @@
 #include "gltf_edit/gltf_asset.h"
 #include "gltf/gltf_motion.h"
 #include "gltf/gltf_skin.h"
+#include "gltf/gltf_skin_parts.h"
 #include "io/dmat.h"
 #include "io/expression.h"
 #include "io/tgf.h"
+#include "look/gltf_look.h"
 #include "pose/pose_file.h"
 #include "pose/retarget.h"
 
@@ -167,12 +169,41 @@ void check_motion(std::string_view input)
     EXPECT_TRUE(each.transform.allFinite());
   }
 }
+
+/// Read the materials, textures and vertex colors.
+void check_look(std::string_view input)
+{
+  SurfaceLook look;
+  const Status status = read_gltf_bytes("input.gltf", std::string(input),
+    [&](const GltfContent& content, Status& found)
+    {
+      const GltfAccessors accessors(content.model, content.bytes.size());
+      const GltfSkinParts skin = find_skin_parts(content.model, accessors);
+      look = read_gltf_look(content, skin.parts, skin.vertices, found.warnings);
+    });
+  if (!status.ok())
+  {
+    expect_refused(status);
+    return;
+  }
+  expect_valid_messages(status);
+  const auto count = static_cast<Index>(look.points.size());
+  EXPECT_TRUE(std::all_of(look.points.begin(), look.points.end(),
+    [&](Index point) { return point >= 0 && point < look.point_count; }));
+  EXPECT_TRUE((look.triangles.array() >= 0).all() && (look.triangles.array() < count).all());
+  EXPECT_TRUE(std::all_of(look.triangle_materials.begin(), look.triangle_materials.end(),
+    [&](Index id) { return id >= -1 && id < static_cast<Index>(look.materials.size()); }));
+  EXPECT_EQ(look.coordinates.rows(), count);
+  EXPECT_TRUE(look.coordinates.allFinite() && look.colors.allFinite());
+  EXPECT_TRUE(look.colors.rows() == 0 || look.colors.rows() == count);
+}
 } // namespace
 
 bool check_gltf(std::string_view input)
 {
   check_asset(input);
   check_motion(input);
+  check_look(input);
   const MemoryFile file(input);
   GltfSkin skin;
   const Status status = read_gltf_skin(file.path(), skin);

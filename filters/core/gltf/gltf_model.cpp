@@ -1,5 +1,5 @@
-// Parsing of glTF files (see gltf_model.h). tinygltf reads buffers through a callback, and no
-// images.
+// Parsing of glTF files (see gltf_model.h). tinygltf reads buffers through a callback, and no files
+// of images.
 #include "gltf/gltf_model.h"
 
 #include "io/json_depth.h"
@@ -40,9 +40,15 @@ bool read_bytes(
   return status.ok();
 }
 
-bool ignore_image(
-  tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int, void*)
+/// Keep the bytes of an image that is in the JSON text. Other images are read by
+/// read_gltf_image().
+bool keep_image(tinygltf::Image* image, int, std::string*, std::string*, int, int,
+  const unsigned char* bytes, int size, void*)
 {
+  if (image->bufferView < 0)
+  {
+    image->image.assign(bytes, bytes + size);
+  }
   return true;
 }
 
@@ -163,7 +169,7 @@ tinygltf::Model parse_gltf(const std::string& content, GltfBufferFiles& files)
   }
   tinygltf::Model model;
   tinygltf::TinyGLTF parser;
-  parser.SetImageLoader(ignore_image, nullptr);
+  parser.SetImageLoader(keep_image, nullptr);
   std::string errors;
   std::string warnings;
   const auto size = static_cast<unsigned int>(content.size());
@@ -248,6 +254,19 @@ GltfAccessors::GltfAccessors(const tinygltf::Model& model, std::size_t file_size
   this->bytes_ = std::max(this->bytes_, file_size);
 }
 
+Index GltfAccessors::count(int id, const char* item_name) const
+{
+  // A sparse accessor stores no bytes for zeros. As a sanity check, the number of its elements must
+  // not exceed the number of bytes in the file.
+  const std::size_t count = gltf_element(this->model_.accessors, id, "accessor").count;
+  if (count == 0 || count > this->bytes_)
+  {
+    throw GltfError(std::string(item_name) + ": the number of elements is " +
+      std::to_string(count) + "; it must be at least 1 and fit into the file");
+  }
+  return static_cast<Index>(count);
+}
+
 GltfNumbers GltfAccessors::read(int id, int type, const char* item_name) const
 {
   const tinygltf::Accessor& accessor = gltf_element(this->model_.accessors, id, "accessor");
@@ -257,14 +276,7 @@ GltfNumbers GltfAccessors::read(int id, int type, const char* item_name) const
   }
   const int columns = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type));
   const std::size_t size = component_size(accessor.componentType);
-  // A sparse accessor stores no bytes for zeros. As a sanity check, the number of its elements
-  // must not exceed the number of bytes in the file.
-  if (accessor.count == 0 || accessor.count > this->bytes_)
-  {
-    throw GltfError(std::string(item_name) + ": the number of elements is " +
-      std::to_string(accessor.count) + "; it must be at least 1 and fit into the file");
-  }
-  const auto count = static_cast<Index>(accessor.count);
+  const Index count = this->count(id, item_name);
   if (accessor.bufferView < 0 && !accessor.sparse.isSparse)
   {
     throw GltfError(std::string(item_name) + ": no data");

@@ -41,7 +41,8 @@ struct GltfBufferFiles
 /// are refused, because a glTF file is untrusted.
 bool is_in_folder(const std::string& path, const std::string& folder);
 
-/// Parse the content of a .gltf or .glb file. Buffers are read, images are not. Throw GltfError for
+/// Parse the content of a .gltf or .glb file. Buffers are read. Images in the JSON text are kept as
+/// bytes; other images are not read. Throw GltfError for
 /// a file that is not valid, another version than 2.0, and required extensions that could change
 /// the geometry.
 tinygltf::Model parse_gltf(const std::string& content, GltfBufferFiles& files);
@@ -88,6 +89,9 @@ public:
   /// file and its buffers have bytes.
   GltfAccessors(const tinygltf::Model& model, std::size_t file_size);
 
+  /// Return the number of elements of an accessor. Throw GltfError if it is zero or larger than the
+  /// file.
+  Index count(int id, const char* item_name) const;
   /// Read all values of an accessor, one element per row.
   /// @param type number of components, as a constant of tinygltf.
   /// @param item_name name of the values in error messages.

@@ -4,14 +4,13 @@
 #include "base/memory.h"
 #include "gltf/gltf_frames.h"
 #include "gltf/gltf_model.h"
+#include "gltf/gltf_skin_parts.h"
 #include "gltf/gltf_skin_reader.h"
 #include "io/text_scanner.h"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
-#include <set>
 
 namespace bindpose
 {
@@ -20,8 +19,8 @@ namespace
 {
 // ---- Meshes ------------------------------------------------------------------------------------
 
-/// Mesh data collected from all primitives. The first four members contain one matrix per
-/// combination of vertex accessors (see first_vertex_by_accessors).
+/// Mesh data collected from all primitives. The first four members contain one matrix for each part
+/// that does not share the vertices of an earlier part.
 struct Parts
 {
   std::vector<GltfNumbers> points;
@@ -31,14 +30,9 @@ struct Parts
   std::vector<std::array<Index, 3>> triangles;
   Index vertices = 0;
   Index sets = 0;
-  Index skipped = 0;
   Index morph_targets = 0;
-  Index meshes = 0;
   bool more_attributes = false; ///< whether a primitive has TEXCOORD_1 or COLOR_1 (not read)
   Index unweighted = 0;
-  /// Id of the first vertex that was read from each combination of vertex accessors. Primitives
-  /// with the same accessors but different materials share these vertices.
-  std::map<std::map<std::string, int>, Index> first_vertex_by_accessors;
   GltfInfluences influences;
 };
 
@@ -58,30 +52,20 @@ GltfNumbers read_colors(const tinygltf::Model& model, const GltfAccessors& acces
   return colors;
 }
 
+/// @param part the primitive; its vertices were read before if they precede parts.vertices
 void read_primitive(const tinygltf::Model& model, const GltfAccessors& accessors,
-  const tinygltf::Primitive& primitive, const Eigen::Affine3d& mesh_to_scene, std::size_t joints,
-  Parts& parts)
+  const GltfPart& part, const Eigen::Affine3d& mesh_to_scene, std::size_t joints, Parts& parts)
 {
-  if (!has_triangles(primitive))
-  {
-    parts.skipped += 1;
-    return;
-  }
+  const tinygltf::Primitive& primitive =
+    model.meshes[model.nodes[part.node].mesh].primitives[part.primitive];
   parts.morph_targets = std::max(parts.morph_targets, static_cast<Index>(primitive.targets.size()));
   parts.more_attributes = parts.more_attributes || primitive.attributes.count("TEXCOORD_1") > 0 ||
     primitive.attributes.count("COLOR_1") > 0;
-  GltfNumbers points =
-    read_gltf_attribute(accessors, primitive, "POSITION", TINYGLTF_TYPE_VEC3, -1);
-  if (points.rows() == 0)
+  const Index vertices = part.count;
+  if (part.first == parts.vertices)
   {
-    throw GltfError("a mesh has no attribute POSITION");
-  }
-  const Index vertices = points.rows();
-  const auto [entry, inserted] =
-    parts.first_vertex_by_accessors.insert({ primitive.attributes, parts.vertices });
-  const Index offset = entry->second;
-  if (inserted)
-  {
+    GltfNumbers points =
+      read_gltf_attribute(accessors, primitive, "POSITION", TINYGLTF_TYPE_VEC3, vertices);
     for (Index v = 0; v < vertices; ++v)
     {
       points.row(v) = (mesh_to_scene * Vec3(points.row(v).transpose())).transpose();
@@ -108,7 +92,7 @@ void read_primitive(const tinygltf::Model& model, const GltfAccessors& accessors
   }
   for (const auto& t : read_gltf_triangles(accessors, primitive, vertices))
   {
-    parts.triangles.push_back({ offset + t[0], offset + t[1], offset + t[2] });
+    parts.triangles.push_back({ part.first + t[0], part.first + t[1], part.first + t[2] });
   }
 }
 
@@ -194,7 +178,7 @@ std::string count_phrase(std::size_t count, const char* singular, const char* pl
 
 /// Return one phrase for each type of content that is in the file but not in `skin`.
 std::vector<std::string> find_unsupported(const tinygltf::Model& model, const Parts& parts,
-  const GltfSkin& skin, const std::optional<std::string>& animation, Index other_meshes)
+  const GltfSkin& skin, const GltfSkinParts& found, const std::optional<std::string>& animation)
 {
   std::vector<std::string> unsupported;
   const auto add = [&unsupported](std::size_t count, const char* singular, const char* plural)
@@ -219,13 +203,13 @@ std::vector<std::string> find_unsupported(const tinygltf::Model& model, const Pa
   add(static_cast<std::size_t>(parts.morph_targets), "morph target", "morph targets");
   add(model.cameras.size(), "camera", "cameras");
   add(model.lights.size(), "light", "lights");
-  add(static_cast<std::size_t>(other_meshes), "mesh that does not use the first skin",
+  add(static_cast<std::size_t>(found.omitted_meshes), "mesh that does not use the first skin",
     "meshes that do not use the first skin");
-  add(static_cast<std::size_t>(parts.skipped), "primitive of points or lines",
+  add(static_cast<std::size_t>(found.skipped), "primitive of points or lines",
     "primitives of points or lines");
-  if (parts.meshes > 1)
+  if (found.meshes > 1)
   {
-    unsupported.push_back("the division into " + std::to_string(parts.meshes) + " meshes");
+    unsupported.push_back("the division into " + std::to_string(found.meshes) + " meshes");
   }
   const auto add_partial =
     [&unsupported](const std::vector<GltfNumbers>& rows, Index kept, const char* item_name)
@@ -260,25 +244,13 @@ std::string join_phrases(const std::vector<std::string>& phrases)
 
 // ---- The whole file ----------------------------------------------------------------------------
 
-/// Return the skin of the first mesh that has one, or -1 if no mesh has one.
-int first_skin(const tinygltf::Model& model)
-{
-  for (const tinygltf::Node& node : model.nodes)
-  {
-    if (node.mesh >= 0 && node.skin >= 0)
-    {
-      return node.skin;
-    }
-  }
-  return -1;
-}
-
 void read_model(const std::string& path, const tinygltf::Model& model, std::size_t file_size,
   GltfSkin& skin, Status& status)
 {
   const GltfAccessors accessors(model, file_size);
   const GltfNodes nodes = read_gltf_nodes(model);
-  const int skin_id = first_skin(model);
+  const GltfSkinParts found = find_skin_parts(model, accessors);
+  const int skin_id = found.skin;
   std::vector<int> joint_nodes;
   if (skin_id >= 0)
   {
@@ -296,42 +268,18 @@ void read_model(const std::string& path, const tinygltf::Model& model, std::size
   }
   const std::vector<Eigen::Affine3d> global = nodes.scene_transforms();
   Parts parts;
-  std::set<int> instanced_meshes;
-  Index omitted_meshes = 0;
-  for (std::size_t n = 0; n < model.nodes.size(); ++n)
+  for (const GltfPart& part : found.parts)
   {
-    const tinygltf::Node& node = model.nodes[n];
-    if (node.mesh < 0)
-    {
-      continue;
-    }
-    if (node.skin != skin_id)
-    {
-      omitted_meshes += 1;
-      continue;
-    }
-    const tinygltf::Mesh& mesh = gltf_element(model.meshes, node.mesh, "mesh");
-    if (skin_id >= 0 && !instanced_meshes.insert(node.mesh).second)
-    {
-      // The joints determine the position of the mesh, so a second node with this mesh would
-      // duplicate it.
-      continue;
-    }
-    if (!global[n].matrix().allFinite())
+    const tinygltf::Node& node = model.nodes[part.node];
+    const Eigen::Affine3d& node_to_scene = global[part.node];
+    if (!node_to_scene.matrix().allFinite())
     {
       throw GltfError("the transform of a node is not finite");
     }
-    const Eigen::Affine3d mesh_to_scene = skin_id >= 0 ? Eigen::Affine3d::Identity() : global[n];
-    if (skin_id < 0)
-    {
-      parts.first_vertex_by_accessors.clear(); // a mesh at another position needs its own vertices
-    }
-    for (const tinygltf::Primitive& primitive : mesh.primitives)
-    {
-      read_primitive(model, accessors, primitive, mesh_to_scene, skin.joints.size(), parts);
-    }
-    skin.name = mesh.name.empty() ? skin.name : sanitize_line(mesh.name);
-    parts.meshes += 1;
+    read_primitive(model, accessors, part,
+      skin_id >= 0 ? Eigen::Affine3d::Identity() : node_to_scene, skin.joints.size(), parts);
+    const std::string name = sanitize_line(model.meshes[node.mesh].name);
+    skin.name = name.empty() ? skin.name : name;
   }
   if (parts.triangles.empty())
   {
@@ -358,10 +306,10 @@ void read_model(const std::string& path, const tinygltf::Model& model, std::size
       read_gltf_frames(model, accessors, nodes, joint_nodes, skin.frames, skin.frames_per_second);
   }
   const std::vector<std::string> unsupported =
-    find_unsupported(model, parts, skin, animation, omitted_meshes);
+    find_unsupported(model, parts, skin, found, animation);
   if (!unsupported.empty())
   {
-    status.warnings.push_back(path + ": Bindpose does not keep " + join_phrases(unsupported));
+    status.warnings.push_back(path + ": " + not_kept_phrase + " " + join_phrases(unsupported));
     status.report.set("not_kept[]", unsupported);
   }
   Report& report = status.report;
@@ -372,7 +320,7 @@ void read_model(const std::string& path, const tinygltf::Model& model, std::size
   report.set("counts.frames", skin.frames.size());
   report.set("counts.animations", model.animations.size());
   report.set("counts.materials", model.materials.size());
-  report.set("counts.skipped_primitives", parts.skipped);
+  report.set("counts.skipped_primitives", found.skipped);
   report.set("counts.morph_targets", parts.morph_targets);
   if (skin_id >= 0)
   {

@@ -12,15 +12,6 @@
 namespace bindpose
 {
 
-/// The vertices of a primitive of a node.
-struct GltfPart
-{
-  int node;
-  int primitive; ///< index of the primitive in the mesh of the node
-  Index first; ///< index of the first vertex in GltfSceneMeshes::points
-  Index count;
-};
-
 /// The meshes of the default scene. A mesh with a skin is in its bind pose: where its first joint
 /// (of those with the fewest ancestors) moves it.
 struct GltfSceneMeshes

@@ -48,6 +48,15 @@ struct GltfFrame
   Points normals; ///< normals of the vertices; 0 rows: no normals
 };
 
+/// The vertices of a primitive of a node.
+struct GltfPart
+{
+  int node;
+  int primitive; ///< index of the primitive in the mesh of the node
+  Index first; ///< index of the first vertex in the points that were read
+  Index count;
+};
+
 /// A triangle mesh with its skin (joints and weights) and an animation. Optional arrays have no
 /// rows.
 struct GltfSkin
@@ -120,6 +129,9 @@ Status write_gltf_skin(
 /// frame. No file is written after a cancel.
 Status write_gltf_skin(ExecutionContext& context, const std::string& path, const GltfSkin& skin,
   const GltfOptions& options);
+
+/// The warning of read_gltf_skin() about content that is not read contains this phrase.
+constexpr const char* not_kept_phrase = "Bindpose does not keep";
 
 /// Read the triangles of a .gltf or .glb file. Only one skin is read: the skin of the first skinned
 /// mesh. All meshes that use this skin are read; other meshes are omitted. If the file has no

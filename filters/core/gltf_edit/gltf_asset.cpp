@@ -104,7 +104,7 @@ void remove_unused_skins(GltfDocument& document)
 }
 } // namespace
 
-Status GltfAsset::read(const std::string& path)
+Status GltfAsset::read(const std::string& path, ConvertPicture convert)
 {
   std::string bytes;
   const Status status = read_file(path, bytes);
@@ -113,17 +113,17 @@ Status GltfAsset::read(const std::string& path)
     *this = GltfAsset();
     return status;
   }
-  return this->read_bytes(path, std::move(bytes));
+  return this->read_bytes(path, std::move(bytes), std::move(convert));
 }
 
-Status GltfAsset::read_bytes(const std::string& path, std::string bytes)
+Status GltfAsset::read_bytes(const std::string& path, std::string bytes, ConvertPicture convert)
 {
   *this = GltfAsset();
   const Status status = read_gltf_bytes(path, std::move(bytes),
-    [this](const GltfContent& content, Status& found)
+    [&](const GltfContent& content, Status& found)
     {
-      this->document_ =
-        GltfDocument(content.bytes, content.model, content.files.folder, found.warnings);
+      this->document_ = GltfDocument(
+        content.bytes, content.model, content.files.folder, found.warnings, std::move(convert));
       this->meshes_ = read_gltf_scene(content.model, content.bytes.size(), found);
     });
   if (!status.ok())

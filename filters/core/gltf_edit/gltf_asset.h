@@ -28,9 +28,10 @@ public:
   ///
   /// Report: see read_gltf_scene(). Return invalid_input for the defects that read_gltf_skin()
   /// names, and if the default scene has no triangles.
-  Status read(const std::string& path);
+  /// @param convert converts pictures in formats that glTF does not allow; null: they are left out
+  Status read(const std::string& path, ConvertPicture convert = nullptr);
   /// Read the bytes of a glTF file that was made from the file `path`.
-  Status read_bytes(const std::string& path, std::string bytes);
+  Status read_bytes(const std::string& path, std::string bytes, ConvertPicture convert = nullptr);
 
   /// #V x 3, in scene coordinates. The vertices of a mesh occur once for each node with the mesh.
   const Points& points() const { return this->meshes_.points; }

@@ -1,14 +1,12 @@
 #include "gltf_edit/gltf_document.h"
 
+#include "gltf/gltf_images.h"
 #include "gltf/gltf_model.h"
 #include "io/text_scanner.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdint>
-#include <filesystem>
 #include <string_view>
-#include <system_error>
 
 namespace bindpose
 {
@@ -81,36 +79,14 @@ Chunks split(const std::string& content)
   return chunks;
 }
 
-/// Replace %XX by the byte with this hexadecimal number.
-std::string decode_uri(const std::string& uri)
+/// Return the MIME type of a picture; empty for a format that glTF does not allow.
+std::string mime_type(const std::string& format)
 {
-  std::string path;
-  for (std::size_t k = 0; k < uri.size(); ++k)
-  {
-    const bool escaped = uri[k] == '%' && k + 2 < uri.size() &&
-      std::isxdigit(static_cast<unsigned char>(uri[k + 1])) != 0 &&
-      std::isxdigit(static_cast<unsigned char>(uri[k + 2])) != 0;
-    path += escaped ? static_cast<char>(std::stoi(uri.substr(k + 1, 2), nullptr, 16)) : uri[k];
-    k += escaped ? 2 : 0;
-  }
-  return path;
-}
-
-/// Return the MIME type of a picture, from its first bytes; empty for a format that glTF does not
-/// allow.
-std::string picture_type(std::string_view bytes)
-{
-  using namespace std::string_view_literals;
-  if (bytes.size() < 12)
-  {
-    return "";
-  }
-  return bytes.substr(0, 8) == "\x89PNG\r\n\x1a\n"sv                   ? "image/png"
-    : bytes.substr(0, 3) == "\xff\xd8\xff"sv                           ? "image/jpeg"
-    : bytes.substr(0, 4) == "RIFF"sv && bytes.substr(8, 4) == "WEBP"sv ? "image/webp"
-    : bytes.substr(1, 6) == "KTX 20"sv                                 ? "image/ktx2"
-    : bytes.substr(0, 4) == "DDS "sv                                   ? "image/vnd-ms.dds"
-                                                                       : "";
+  return format == "png"                   ? "image/png"
+    : format == "jpg"                      ? "image/jpeg"
+    : format == "webp" || format == "ktx2" ? "image/" + format
+    : format == "dds"                      ? "image/vnd-ms.dds"
+                                           : "";
 }
 
 const char* type_name(int components)
@@ -152,13 +128,14 @@ std::string base64(std::string_view bytes)
 }
 } // namespace
 
-GltfDocument::GltfDocument()
+GltfDocument::GltfDocument(ConvertPicture convert) : convert_(std::move(convert))
 {
   this->json_["asset"] = { { "version", "2.0" }, { "generator", "Bindpose" } };
 }
 
 GltfDocument::GltfDocument(const std::string& content, const tinygltf::Model& model,
-  const std::string& folder, std::vector<std::string>& warnings)
+  const std::string& folder, std::vector<std::string>& warnings, ConvertPicture convert)
+  : convert_(std::move(convert))
 {
   const Chunks chunks = split(content);
   this->json_ = Json::parse(chunks.text, nullptr, false);
@@ -235,20 +212,14 @@ void GltfDocument::embed_images(const std::string& folder, std::vector<std::stri
     {
       continue;
     }
-    const std::string path = folder + "/" + decode_uri(uri);
-    std::error_code error;
-    if (std::filesystem::exists(path, error) && !is_in_folder(path, folder))
-    {
-      throw GltfError("the image '" + sanitize_line(uri) + "' is not in the folder of the file");
-    }
     std::string bytes;
-    const Status status = read_file(path, bytes);
-    const std::string type = picture_type(bytes);
+    const Status status = read_picture_bytes(uri, folder, bytes);
+    const std::string type = this->use_format(bytes, uri);
     if (!status.ok() || type.empty())
     {
       warnings.push_back("the image '" + sanitize_line(uri) +
         "' is not stored in the file because " +
-        (status.ok() ? "its format is unknown" : status.message));
+        (status.ok() ? "it cannot be read as a picture" : status.message));
       continue;
     }
     const int view = this->append_view(bytes.data(), bytes.size(), 0);
@@ -302,9 +273,21 @@ int GltfDocument::append_accessor(
       { "type", type_name(components) } });
 }
 
-int GltfDocument::append_image(const std::string& bytes)
+/// Convert a picture if necessary.
+/// @return its MIME type; empty for a format that glTF does not allow
+std::string GltfDocument::use_format(std::string& bytes, const std::string& name) const
 {
-  const std::string type = picture_type(bytes);
+  std::string format = picture_format(bytes, name);
+  if (this->convert_ && is_convertible(format) && this->convert_(format, bytes))
+  {
+    format = "png";
+  }
+  return mime_type(format);
+}
+
+int GltfDocument::append_image(std::string bytes, const std::string& name)
+{
+  const std::string type = this->use_format(bytes, name);
   if (type != "image/png" && type != "image/jpeg")
   {
     return -1;

@@ -5,6 +5,7 @@
 
 #include "base/status.h"
 #include "geometry/mesh.h"
+#include "gltf/gltf_images.h"
 #include "gltf/gltf_transform.h"
 #include "gltf/tiny_gltf.h"
 
@@ -29,12 +30,13 @@ public:
   using Json = nlohmann::ordered_json;
 
   /// Create an empty document.
-  GltfDocument();
+  /// @param convert converts pictures in formats that glTF does not allow; null: they are refused
+  explicit GltfDocument(ConvertPicture convert = nullptr);
   /// Take over a file that parse_gltf() has accepted. All buffers are joined into one. External
   /// images are read from `folder` and stored in the buffer; those that cannot be read remain
   /// external, with a warning. Throw GltfError for an image outside of `folder`.
   GltfDocument(const std::string& content, const tinygltf::Model& model, const std::string& folder,
-    std::vector<std::string>& warnings);
+    std::vector<std::string>& warnings, ConvertPicture convert = nullptr);
 
   /// References to values are not valid after a change that adds a list to the document.
   Json& json() { return this->json_; }
@@ -65,8 +67,10 @@ public:
   /// Append a buffer view for `bytes`, and return its id.
   int append_view(const void* bytes, std::size_t size, int target);
 
-  /// Append a picture and return the id of the image, or -1 if the bytes are neither PNG nor JPEG.
-  int append_image(const std::string& bytes);
+  /// Append a picture and return the id of the image, or -1 if its bytes are neither PNG nor JPEG
+  /// and cannot be converted.
+  /// @param name file name, whose extension may determine the format
+  int append_image(std::string bytes, const std::string& name);
 
   /// Set `content` to the bytes of the document as .glb, or as .gltf with the buffer as base64.
   /// Return invalid_input if the file has more than 4 GB, or if a text is not UTF-8.
@@ -87,9 +91,11 @@ private:
     const void* values, std::size_t size, std::size_t count, int components, int type, int target);
   void join_buffers(const tinygltf::Model& model);
   void embed_images(const std::string& folder, std::vector<std::string>& warnings);
+  std::string use_format(std::string& bytes, const std::string& name) const;
 
   Json json_;
   std::string buffer_;
+  ConvertPicture convert_; ///< may be null
   std::string further_chunks_; ///< chunks of a .glb file after the JSON text and the buffer
 };
 

@@ -93,6 +93,15 @@ public:
     return document.append("meshes", { { "name", name }, { "primitives", std::move(primitives) } });
   }
 
+  /// Append the point of the mesh for each vertex.
+  void list_points(std::vector<Index>& points) const
+  {
+    for (const auto& vertex : this->vertices_)
+    {
+      points.push_back(vertex[0]);
+    }
+  }
+
 private:
   /// @param has_pictures whether a material of the part has a picture, which needs coordinates
   Json append_attributes(const Vec3& translation, bool has_pictures, GltfDocument& document) const
@@ -153,7 +162,7 @@ private:
 };
 } // namespace
 
-void append_look_scene(const PolygonMesh& mesh, const MeshLook& look,
+std::vector<Index> append_look_scene(const PolygonMesh& mesh, const MeshLook& look,
   const LookTriangles& triangles, const std::map<std::string, int>& materials,
   GltfDocument& document)
 {
@@ -180,8 +189,10 @@ void append_look_scene(const PolygonMesh& mesh, const MeshLook& look,
   }
   const Vec3 translation = translation_of(mesh.points);
   Json roots = Json::array();
+  std::vector<Index> points;
   for (std::size_t k = 0; k < parts.size(); ++k)
   {
+    parts[k].list_points(points);
     const std::string name = sanitize_line(look.part_names[k]);
     Json node{ { "name", name } };
     node["mesh"] = parts[k].append(name, translation, material_ids, document);
@@ -192,6 +203,7 @@ void append_look_scene(const PolygonMesh& mesh, const MeshLook& look,
     roots.push_back(document.append("nodes", std::move(node)));
   }
   document.json()["scene"] = document.append("scenes", { { "nodes", std::move(roots) } });
+  return points;
 }
 
 } // namespace bindpose

@@ -29,7 +29,8 @@ struct LookTriangles
 /// the translation of the nodes, because glTF stores coordinates as floats. Polygons without a
 /// material get a gray one, because the default material of glTF is a metal.
 /// @param materials id of a material in the document, by its name in the look
-void append_look_scene(const PolygonMesh& mesh, const MeshLook& look,
+/// @return point of the mesh for each vertex of the document, in the order of the scene
+std::vector<Index> append_look_scene(const PolygonMesh& mesh, const MeshLook& look,
   const LookTriangles& triangles, const std::map<std::string, int>& materials,
   GltfDocument& document);
 

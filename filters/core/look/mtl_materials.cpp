@@ -142,11 +142,11 @@ private:
     }
     std::string bytes;
     const Status status = read_file(path, bytes);
-    const int id = status.ok() ? this->document_.append_image(bytes) : -1;
+    const int id = status.ok() ? this->document_.append_image(bytes, name) : -1;
     if (id < 0)
     {
       this->warnings_.push_back("the picture '" + sanitize_line(name) + "' is left out because " +
-        (status.ok() ? "it is neither PNG nor JPEG" : status.message));
+        (status.ok() ? "it cannot be read as a picture" : status.message));
     }
     return id;
   }

@@ -16,8 +16,8 @@ namespace bindpose
 /// opacity become the base color; Pm, Pr (or the specular exponent), Ke, norm (or map_Bump) and the
 /// pictures map_Kd, map_Ke become the properties of glTF with the same meaning. OBJ files do not
 /// distinguish the sides of a face, so materials are double-sided. A picture is searched at its
-/// path in the folder, then by its file name alone; if it is missing or neither PNG nor JPEG, it is
-/// left out with a warning.
+/// path in the folder, then by its file name alone; if it is missing or cannot be read, it is left
+/// out with a warning.
 /// @param text content of the MTL file
 /// @param folder folder of the MTL file
 /// @param names names of the materials to append

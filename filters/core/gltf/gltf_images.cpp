@@ -1,0 +1,106 @@
+#include "gltf/gltf_images.h"
+
+#include "gltf/gltf_model.h"
+#include "io/text_scanner.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <system_error>
+
+namespace bindpose
+{
+
+namespace
+{
+/// Replace %XX by the byte with this hexadecimal number.
+std::string decode_uri(const std::string& uri)
+{
+  std::string path;
+  for (std::size_t k = 0; k < uri.size(); ++k)
+  {
+    const bool escaped = uri[k] == '%' && k + 2 < uri.size() &&
+      std::isxdigit(static_cast<unsigned char>(uri[k + 1])) != 0 &&
+      std::isxdigit(static_cast<unsigned char>(uri[k + 2])) != 0;
+    path += escaped ? static_cast<char>(std::stoi(uri.substr(k + 1, 2), nullptr, 16)) : uri[k];
+    k += escaped ? 2 : 0;
+  }
+  return path;
+}
+} // namespace
+
+std::string picture_format(std::string_view bytes, const std::string& name)
+{
+  using namespace std::string_view_literals;
+  constexpr std::size_t longest_signature = 12;
+  if (bytes.size() < longest_signature)
+  {
+    return "";
+  }
+  const auto begins_with = [&](std::string_view signature)
+  { return bytes.substr(0, signature.size()) == signature; };
+  const auto ends_with = [&](const std::string& extension)
+  {
+    return name.size() > extension.size() &&
+      std::equal(extension.begin(), extension.end(),
+        name.end() - static_cast<int>(extension.size()),
+        [](char a, char b) { return a == std::tolower(static_cast<unsigned char>(b)); });
+  };
+  return begins_with("\x89PNG\r\n\x1a\n"sv)                   ? "png"
+    : begins_with("\xff\xd8\xff"sv)                           ? "jpg"
+    : begins_with("RIFF"sv) && bytes.substr(8, 4) == "WEBP"sv ? "webp"
+    : bytes.substr(1, 6) == "KTX 20"sv                        ? "ktx2"
+    : begins_with("DDS "sv)                                   ? "dds"
+    : begins_with("BM"sv)                                     ? "bmp"
+    : begins_with("II*\0"sv) || begins_with("MM\0*"sv)        ? "tif"
+    : ends_with(".tga")                                       ? "tga"
+                                                              : "";
+}
+
+bool is_convertible(const std::string& format)
+{
+  return format == "bmp" || format == "tif" || format == "tga";
+}
+
+Status read_picture_bytes(const std::string& uri, const std::string& folder, std::string& bytes)
+{
+  const std::string path = folder + "/" + decode_uri(uri);
+  std::error_code error;
+  if (std::filesystem::exists(path, error) && !is_in_folder(path, folder))
+  {
+    throw GltfError("the image '" + sanitize_line(uri) + "' is not in the folder of the file");
+  }
+  return read_file(path, bytes);
+}
+
+Status read_gltf_image(
+  const tinygltf::Model& model, int image, const std::string& folder, std::string& bytes)
+{
+  const tinygltf::Image& from = gltf_element(model.images, image, "image");
+  if (from.bufferView >= 0)
+  {
+    const tinygltf::BufferView& view =
+      gltf_element(model.bufferViews, from.bufferView, "buffer view");
+    const std::vector<unsigned char>& data =
+      gltf_element(model.buffers, view.buffer, "buffer").data;
+    if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset)
+    {
+      throw GltfError("image " + std::to_string(image) + " extends beyond the end of its buffer");
+    }
+    bytes.assign(reinterpret_cast<const char*>(data.data()) + view.byteOffset, view.byteLength);
+    if (picture_format(bytes, "") == "png")
+    {
+      // Some programs pad views with zeros. A PNG file does not end with a zero.
+      bytes.erase(bytes.find_last_not_of('\0') + 1);
+    }
+    return {};
+  }
+  if (!from.image.empty()) // parse_gltf() decoded the data URI
+  {
+    bytes.assign(from.image.begin(), from.image.end());
+    return {};
+  }
+  return read_picture_bytes(from.uri, folder, bytes);
+}
+
+} // namespace bindpose

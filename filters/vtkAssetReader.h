@@ -5,11 +5,11 @@
  * Weights for the points of this mesh can be written into a copy of the file by vtkGLTFSkinWriter
  * (AssetFileName). The copy keeps materials, textures, cameras, animations and everything else. The
  * copy of another format is a glTF file. It has the texture coordinates, normals and vertex colors
- * of the file. An OBJ file also keeps its groups (one mesh each), and the materials and PNG or JPEG
- * pictures of its .mtl files; a PLY file keeps its picture (comment TextureFile). FBX, Collada, 3DS
- * and 3MF files are converted by assimp, in the helper process bindpose-importer. Materials and
- * pictures that cannot be read are left out, with a warning; those outside of the folder are
- * refused.
+ * of the file. An OBJ file also keeps its groups (one mesh each), and the materials and pictures of
+ * its .mtl files; BMP, TIFF and TGA pictures become PNG; a PLY file keeps its picture (comment
+ * TextureFile). FBX, Collada, 3DS and 3MF files are converted by assimp, in the helper process
+ * bindpose-importer. Materials and pictures that cannot be read are left out, with a warning; those
+ * outside of the folder are refused.
  *
  * **Output 0**: the triangles of the default scene (vtkPolyData), in scene coordinates. The
  * vertices of a mesh occur once for each node with the mesh. If a mesh has a skin, its points have

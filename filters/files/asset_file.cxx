@@ -8,6 +8,7 @@
 #include "io/text_scanner.h"
 #include "look/look_document.h"
 #include "look/mtl_materials.h"
+#include "picture_bytes.h"
 #include "polygon_triangles.h"
 
 #include <array>
@@ -96,15 +97,14 @@ std::map<std::string, int> append_materials(const std::string& folder, const Mes
   return ids;
 }
 
-/// Read an OBJ or PLY file.
-Status read_look_asset(const std::string& path, GltfAsset& asset)
+/// Convert an OBJ or PLY file.
+Status read_polygon_file(ExecutionContext& context, const std::string& path, AssetBytes& asset)
 {
   PolygonMesh mesh;
   MeshLook look;
   Status status =
     file_extension(path) == "obj" ? read_obj(path, mesh, look) : read_ply(path, mesh, look);
   std::vector<std::string> warnings = status.warnings;
-  std::string bytes;
   if (status.ok())
   {
     status = check_float_range(mesh.points);
@@ -115,25 +115,28 @@ Status read_look_asset(const std::string& path, GltfAsset& asset)
   }
   try
   {
-    GltfDocument document;
+    GltfDocument document(png_converter(context));
     const std::string folder = std::filesystem::path(path).parent_path().string();
     const std::map<std::string, int> materials =
       append_materials(folder.empty() ? "." : folder, look, document, warnings);
-    append_look_scene(mesh, look, triangulate(mesh), materials, document);
-    status = document.to_bytes(true, bytes);
+    asset.points = append_look_scene(mesh, look, triangulate(mesh), materials, document);
+    asset.point_count = mesh.points.rows();
+    status = document.to_bytes(true, asset.bytes);
   }
   catch (const GltfError& failure)
   {
     status = Status::invalid_input(path + ": " + failure.sentence);
   }
-  if (status.ok())
-  {
-    status = asset.read_bytes(path, std::move(bytes));
-  }
   status.warnings.insert(status.warnings.begin(), warnings.begin(), warnings.end());
   return status;
 }
 } // namespace
+
+Status read_asset_bytes(ExecutionContext& context, const std::string& path, AssetBytes& asset)
+{
+  return is_listed(file_extension(path), "obj ply") ? read_polygon_file(context, path, asset)
+                                                    : import_guarded(context, path, asset.bytes);
+}
 
 Status read_asset_file(ExecutionContext& context, const std::string& path, GltfAsset& asset)
 {
@@ -142,18 +145,20 @@ Status read_asset_file(ExecutionContext& context, const std::string& path, GltfA
   {
     return status;
   }
-  const std::string extension = file_extension(path);
-  if (is_listed(extension, "obj ply"))
+  if (is_listed(file_extension(path), "glb gltf"))
   {
-    return read_look_asset(path, asset);
+    return asset.read(path, png_converter(context));
   }
-  if (is_listed(extension, "glb gltf"))
+  AssetBytes converted;
+  const Status conversion = read_asset_bytes(context, path, converted);
+  if (!conversion.ok())
   {
-    return asset.read(path);
+    return conversion;
   }
-  std::string bytes;
-  status = import_guarded(context, path, bytes);
-  return status.ok() ? asset.read_bytes(path, std::move(bytes)) : status;
+  status = asset.read_bytes(path, std::move(converted.bytes), png_converter(context));
+  status.warnings.insert(
+    status.warnings.begin(), conversion.warnings.begin(), conversion.warnings.end());
+  return status;
 }
 
 } // namespace bindpose

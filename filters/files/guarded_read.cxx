@@ -41,12 +41,12 @@ std::string beginning(const std::string& path)
 /// Return the memory limit of the helper in MiB, 0: no limit. The libraries take about 300 MiB of
 /// address space. Reading text takes less than 20 bytes of memory per byte of the file.
 /// Compressed files and pictures expand by a factor of at most 1,032 (zlib with constant data).
-Index memory_limit(const std::string& path, double size)
+Index memory_limit(const std::string& path, const std::string& format, double size)
 {
 #if defined(__SANITIZE_ADDRESS__)
   return 0; // The address sanitizer reserves terabytes of address space.
 #else
-  const bool is_compressed = is_listed(file_extension(path), "png jpg jpeg tif tiff bmp") ||
+  const bool is_compressed = is_listed(format, "png jpg jpeg tif tiff bmp tga") ||
     beginning(path).find("compressor=") != std::string::npos;
   const double growth = is_compressed ? 1100.0 : 20.0;
   constexpr double mebibyte = 1048576.0;
@@ -77,6 +77,43 @@ bool parse(const std::string& text, std::array<Number, size>& numbers)
   }
   return !words.fail();
 }
+/// Read a file by the helper.
+/// @param name what is read, for messages
+/// @param path for the helper, whose working folder may be another one
+/// @param input file descriptor of the standard input of the helper, -1: no input
+/// @param size number of bytes of the file
+Status read_by_helper(ExecutionContext& context, const std::string& name, const std::string& path,
+  int input, const std::string& format, double size, vtkSmartPointer<vtkDataSet>& data)
+{
+  const FileDescriptor record(anonymous_file("bindpose-dataset"));
+  if (record.get() < 0)
+  {
+    return Status::failure(StatusCode::internal_error,
+      std::string("cannot create memory for a dataset: ") + std::strerror(errno));
+  }
+  HelperRequest request;
+  request.name = reader.program;
+  request.arguments = { path, format };
+  request.input = input;
+  request.memory_limit = memory_limit(path, format, size);
+  constexpr double bytes_per_second = 1e6; // text is read at 10 to 50 MB per second
+  request.time_limit = 10.0 + size / bytes_per_second;
+  HelperRun run;
+  Status status = run_helper(context, reader, request, record.get(), run);
+  if (status.ok())
+  {
+    status = read_dataset_record(record.get(), data);
+    if (!status.ok())
+    {
+      status.message = "bindpose-reader returned an invalid dataset: " + status.message;
+    }
+  }
+  if (status.code == StatusCode::internal_error)
+  {
+    return Status::invalid_input(name + " cannot be read: " + status.message);
+  }
+  return status;
+}
 } // namespace
 
 Status read_guarded(
@@ -92,33 +129,32 @@ Status read_guarded(
     return Status::invalid_input(
       path + " cannot be read: " + (is_missing ? "there is no such file" : error.message()));
   }
-  const FileDescriptor record(anonymous_file("bindpose-dataset"));
-  if (record.get() < 0)
+  return read_by_helper(
+    context, path, full.string(), -1, file_extension(path), static_cast<double>(size), data);
+}
+
+Status read_guarded(ExecutionContext& context, const std::string& name, const std::string& bytes,
+  const std::string& format, vtkSmartPointer<vtkDataSet>& data)
+{
+  data = nullptr;
+  const FileDescriptor file(anonymous_file("bindpose-picture"));
+  std::size_t done = 0;
+  while (file.get() >= 0 && done < bytes.size())
+  {
+    const ssize_t count = ::write(file.get(), bytes.data() + done, bytes.size() - done);
+    if (count <= 0)
+    {
+      break;
+    }
+    done += static_cast<std::size_t>(count);
+  }
+  if (done < bytes.size())
   {
     return Status::failure(StatusCode::internal_error,
-      std::string("cannot create memory for a dataset: ") + std::strerror(errno));
+      std::string("cannot create memory for a picture: ") + std::strerror(errno));
   }
-  HelperRequest request;
-  request.name = reader.program;
-  request.arguments = { full.string(), file_extension(path) };
-  request.memory_limit = memory_limit(path, static_cast<double>(size));
-  constexpr double bytes_per_second = 1e6; // text is read at 10 to 50 MB per second
-  request.time_limit = 10.0 + static_cast<double>(size) / bytes_per_second;
-  HelperRun run;
-  Status status = run_helper(context, reader, request, record.get(), run);
-  if (status.ok())
-  {
-    status = read_dataset_record(record.get(), data);
-    if (!status.ok())
-    {
-      status.message = "bindpose-reader returned an invalid dataset: " + status.message;
-    }
-  }
-  if (status.code == StatusCode::internal_error)
-  {
-    return Status::invalid_input(path + " cannot be read: " + status.message);
-  }
-  return status;
+  return read_by_helper(
+    context, name, "/dev/stdin", file.get(), format, static_cast<double>(bytes.size()), data);
 }
 
 bool read_image_header(const std::string& path, ImageHeader& header)

@@ -22,6 +22,12 @@ namespace bindpose
 BINDPOSEFILTERS_EXPORT Status read_guarded(
   ExecutionContext& context, const std::string& path, vtkSmartPointer<vtkDataSet>& data);
 
+/// Decode a picture in the same way.
+/// @param name what is read, for messages
+/// @param format extension of such files: png, jpg, bmp, tif or tga
+Status read_guarded(ExecutionContext& context, const std::string& name, const std::string& bytes,
+  const std::string& format, vtkSmartPointer<vtkDataSet>& data);
+
 /// The header of an image file.
 struct ImageHeader
 {

@@ -4,6 +4,7 @@
 // other formats. Bindpose starts this program (see guarded_read.h); users do not call it.
 #include "vtk_errors.h"
 
+#include "check_tga.h"
 #include "dataset_record.h"
 #include "read_png.h"
 #include "read_tiff.h"
@@ -19,6 +20,7 @@
 #include "vtkImageData.h"
 #include "vtkJPEGReader.h"
 #include "vtkNew.h"
+#include "vtkTGAReader.h"
 #include "vtkXMLImageDataReader.h"
 #include "vtkXMLPolyDataReader.h"
 #include "vtkXMLUnstructuredGridReader.h"
@@ -124,8 +126,13 @@ Status read_format(const std::string& path, const std::string& format, int resul
   {
     return read<vtkBMPReader>(path, result);
   }
+  if (format == "tga")
+  {
+    const Status status = bindpose::check_tga(path);
+    return status.ok() ? read<vtkTGAReader>(path, result) : status;
+  }
   return Status::invalid_input("the format " + format +
-    " is not supported; expected vtp, vtu, vti, vtk, png, jpg, jpeg, tif, tiff or bmp");
+    " is not supported; expected vtp, vtu, vti, vtk, png, jpg, jpeg, tif, tiff, bmp or tga");
 }
 } // namespace
 

@@ -4,6 +4,7 @@
 #include "cli/interrupt.h"
 #include "cli/suggestion.h"
 #include "file_kind.h"
+#include "gltf/gltf_skin.h"
 #include "io/report_json.h"
 #include "io/text_scanner.h"
 #include "report_field_data.h"
@@ -188,7 +189,10 @@ Status Session::try_stage(vtkBindposeAlgorithm* algorithm, const std::string& st
   {
     for (const std::string& warning : *warnings)
     {
-      this->warn(warning);
+      if (!this->ignores_losses_ || warning.find(not_kept_phrase) == std::string::npos)
+      {
+        this->warn(warning);
+      }
     }
   }
   if (!status.usable() && merge != Merge::all)
@@ -264,6 +268,14 @@ vtkSmartPointer<vtkDataSet> Session::read_any(const std::string& path)
   if (file_extension(path) == "tgf")
   {
     return this->read_handles(path, nullptr);
+  }
+  const std::string extension = file_extension(path);
+  if (is_listed(extension, vtkAssetReader::GetFileExtensions()) &&
+    !is_listed(extension, vtkMeshFileReader::GetFileExtensions()))
+  {
+    vtkSmartPointer<vtkPolyData> mesh, handles;
+    this->read_asset(path, mesh, handles);
+    return mesh;
   }
   return this->read(path);
 }

@@ -64,9 +64,11 @@ public:
   Status try_run(vtkBindposeAlgorithm* algorithm, const std::string& stage, double begin,
     double end, Merge merge);
 
+  /// Do not warn about data of files that are not kept, because the session writes no dataset.
+  void ignore_losses() { this->ignores_losses_ = true; }
   /// Read a mesh, volume or handle file other than .tgf; return null on failure.
   vtkSmartPointer<vtkDataSet> read(const std::string& path);
-  /// Read like read(), including .tgf handle files.
+  /// Read like read(), including .tgf handle files and the formats that only vtkAssetReader reads.
   vtkSmartPointer<vtkDataSet> read_any(const std::string& path);
   /// Read a glTF file that gets a new rig. Set its meshes and the handles of its joints.
   bool read_asset(const std::string& path, vtkSmartPointer<vtkPolyData>& mesh,
@@ -110,6 +112,7 @@ private:
   double main_begin_ = 0.0; ///< fraction of the whole run at which the main work begins
   Status status_;
   std::vector<std::string> warnings_;
+  bool ignores_losses_ = false;
   Report report_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };

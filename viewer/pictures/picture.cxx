@@ -7,6 +7,7 @@
 #include "base/number_text.h"
 #include "conversion.h"
 #include "io/atomic_file.h"
+#include "look_file.h"
 #include "pictures/display.h"
 #include "pictures/legend.h"
 #include "pictures/tile_actors.h"
@@ -255,7 +256,11 @@ bool needs_depth_sort(const std::vector<Tile>& tiles, const PictureOptions& opti
 {
   return options.isosurfaces.size() > 1 ||
     std::any_of(tiles.begin(), tiles.end(),
-      [](const Tile& tile) { return !tile.context.empty() || tile.defects; });
+      [](const Tile& tile)
+      {
+        return !tile.context.empty() || tile.defects ||
+          (tile.look && tile.look->surface.is_translucent());
+      });
 }
 
 // Choose the number of columns of tiles for which the shapes appear as large as possible.

@@ -4,14 +4,17 @@
 #include "pictures/tile_actors.h"
 
 #include "conversion.h"
+#include "look_file.h"
 #include "scene/curves.h"
 #include "scene/defect_actors.h"
 #include "scene/extrema.h"
 #include "scene/volume.h"
 #include "scene/volume_rendering.h"
 #include "shapes/shaded_surface.h"
+#include "shapes/surroundings.h"
 #include "shapes/tet_cut.h"
 #include "shapes/tet_slice.h"
+#include "shapes/textured_surface.h"
 #include "vtkHandleSetRepresentation.h"
 
 #include "vtkActor.h"
@@ -168,6 +171,47 @@ vtkSmartPointer<vtkActor> add_surface(vtkRenderer* renderer, vtkPolyData* surfac
       isoline_width * scale);
   }
   return actor;
+}
+
+// Enable depth peeling, which draws intersecting translucent surfaces in the correct order.
+void sort_by_depth(vtkRenderer* renderer)
+{
+  renderer->SetUseDepthPeeling(true);
+  renderer->SetMaximumNumberOfPeels(8);
+  renderer->SetOcclusionRatio(0.0);
+}
+
+void add_textured(vtkRenderer* renderer, vtkPolyData* surface, const FileLook& look,
+  const PictureOptions& options, const Frame& frame, double scale)
+{
+  const TexturedSurface textured(look, to_points(surface).view());
+  for (const auto& actor : textured.actors())
+  {
+    if (frame.flat)
+    {
+      actor->GetProperty()->BackfaceCullingOff(); // the default view may show the back
+    }
+    renderer->AddActor(actor);
+  }
+  if (options.edges)
+  {
+    // VTK draws no edges on surfaces with normal textures, and multiplies others by the texture.
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputData(textured.polydata());
+    mapper->ScalarVisibilityOff();
+    vtkNew<vtkActor> edges;
+    edges->SetMapper(mapper);
+    set_color(edges->GetProperty(), palette::edges);
+    edges->GetProperty()->SetRepresentationToWireframe();
+    edges->GetProperty()->LightingOff();
+    edges->GetProperty()->SetLineWidth(static_cast<float>(0.6 * scale));
+    renderer->AddActor(edges);
+  }
+  add_surroundings(renderer, Vec3::Unit(frame.up));
+  if (look.surface.is_translucent())
+  {
+    sort_by_depth(renderer);
+  }
 }
 
 void add_flat(vtkRenderer* renderer, vtkPolyData* faces, const Coloring& coloring, double scale)
@@ -384,14 +428,6 @@ void add_slice(vtkRenderer* renderer, vtkImageData* image, const PictureOptions&
       translucent_actor->GetProperty()->SetOpacity(0.2);
     }
   }
-}
-
-// Enable depth peeling, which draws intersecting translucent surfaces in the correct order.
-void sort_by_depth(vtkRenderer* renderer)
-{
-  renderer->SetUseDepthPeeling(true);
-  renderer->SetMaximumNumberOfPeels(8);
-  renderer->SetOcclusionRatio(0.0);
 }
 
 void add_isosurfaces(vtkRenderer* renderer, vtkImageData* image, const PictureOptions& options,
@@ -660,7 +696,13 @@ Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& o
   else if (auto* polydata = vtkPolyData::SafeDownCast(tile.data))
   {
     const auto surface = with_color_values(polydata, coloring);
-    const auto actor = add_surface(renderer, surface, options, coloring, scale);
+    const bool is_textured = tile.look && !tile.defects && coloring.kind == Coloring::Kind::none;
+    if (is_textured)
+    {
+      add_textured(renderer, surface, *tile.look, options, frame, scale);
+    }
+    const auto actor =
+      is_textured ? nullptr : add_surface(renderer, surface, options, coloring, scale);
     if (actor && tile.defects)
     {
       // Make the surface translucent, because most defects are inside or behind it.

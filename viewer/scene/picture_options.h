@@ -7,6 +7,7 @@
 #include "vtkSmartPointer.h"
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,9 +18,11 @@ class vtkPolyData;
 namespace bindpose
 {
 
+struct FileLook;
+
 /// One dataset of a picture. Its type determines how it is drawn:
 /// - surface: smooth shading with sharp edges kept; arrays as colors; weights in bands with
-///   isolines;
+///   isolines; without colors, the materials of its file if they are known;
 /// - tets: cut open in the middle, without cutting single tets ("crinkle cut"). The exposed faces
 ///   have edges and another color. On request, the plane cuts through tets, or all tets are shrunk.
 ///   Arrays are shown as colors on all faces;
@@ -39,6 +42,10 @@ struct Tile
   /// Output of vtkSurfaceDefects, or null. The defects are drawn over the surface `data`, and this
   /// surface becomes translucent.
   vtkSmartPointer<vtkPolyData> defects{};
+  /// Materials, textures and vertex colors of the surface `data`, or null. They are drawn if the
+  /// picture has no colors and the tile has no defects. FileLook::surface.point_count must be the
+  /// number of points of `data`.
+  std::shared_ptr<const FileLook> look{};
 };
 
 /// The quantity that determines the colors.

@@ -10,6 +10,7 @@
 #include "helper/scratch_folder.h"
 #include "io/atomic_file.h"
 #include "io/text_scanner.h"
+#include "look_file.h"
 #include "pictures/display.h"
 #include "pictures/picture.h"
 #include "pictures/sequence_file.h"
@@ -23,6 +24,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 
 #include <unistd.h>
 
@@ -224,6 +226,67 @@ bool add_defects(Session& session, std::vector<Tile>& tiles)
     session.invalid("--defects needs a surface; add one with --context SURFACE");
 }
 
+/// Read the materials, textures and vertex colors of the meshes, unless the picture has other
+/// colors.
+bool add_looks(Session& session, const std::vector<std::string>& files,
+  const PictureOptions& options, std::vector<Tile>& tiles)
+{
+  const Arguments& arguments = session.arguments();
+  const bool has_colors = !options.array.empty() || options.color_by != ColorBy::array;
+  if (arguments.has("look") && (has_colors || arguments.has("defects") || arguments.has("plain")))
+  {
+    return session.invalid(
+      "--look cannot be combined with --plain, --defects or colors of an array");
+  }
+  if (has_colors || arguments.has("defects") || arguments.has("plain"))
+  {
+    return true;
+  }
+  const std::string common = arguments.text("look");
+  std::shared_ptr<const FileLook> look;
+  for (std::size_t k = 0; k < tiles.size(); ++k)
+  {
+    auto* mesh = vtkPolyData::SafeDownCast(tiles[k].data);
+    const std::string& file = common.empty() ? files[k] : common;
+    if (!mesh || mesh->GetNumberOfPolys() == 0 ||
+      (common.empty() && !is_listed(file_extension(file), look_extensions())))
+    {
+      continue;
+    }
+    if (!look || common.empty())
+    {
+      const auto found = std::make_shared<FileLook>();
+      ExecutionContext context({}, interrupted);
+      const Status status = read_look_file(context, file, *found);
+      for (const std::string& warning : status.warnings)
+      {
+        session.warn(warning);
+      }
+      if (!status.ok() && (!common.empty() || status.code == StatusCode::canceled))
+      {
+        return session.fail(status);
+      }
+      if (!status.ok())
+      {
+        session.warn("the look of the mesh is not drawn: " + status.message);
+      }
+      look = found;
+    }
+    if (look->surface.is_plain())
+    {
+      continue;
+    }
+    if (look->surface.point_count != mesh->GetNumberOfPoints())
+    {
+      return session.invalid("the mesh of " + file + " has " +
+        std::to_string(look->surface.point_count) + " points, but " + files[k] + " has " +
+        std::to_string(mesh->GetNumberOfPoints()));
+    }
+    tiles[k].look = look;
+  }
+  return common.empty() || look || session.invalid("--look needs a mesh");
+}
+
 /// List the files to draw. A sequence (.pvd) is replaced by the files of at most --frames evenly
 /// spaced frames. Without --frames, a video uses all frames, and an image at most 12.
 bool list_files(Session& session, bool is_video, std::vector<std::string>& files,
@@ -353,6 +416,7 @@ void run_render(Session& session)
     session.fail(status); // fail now, before the expensive work
     return;
   }
+  session.ignore_losses();
   std::vector<Tile> tiles;
   for (const std::string& file : files)
   {
@@ -399,6 +463,10 @@ void run_render(Session& session)
     {
       return;
     }
+  }
+  if (!add_looks(session, files, options, tiles))
+  {
+    return;
   }
   if (arguments.has("defects") && !add_defects(session, tiles))
   {

@@ -279,12 +279,14 @@ void Document::replace(const Work& work)
 
 // ---- Opening files -----------------------------------------------------------------------------
 
-Status Document::set_mesh(vtkDataSet* mesh, const QString& name, const Source& source)
+Status Document::set_mesh(
+  vtkDataSet* mesh, const QString& name, const Source& source, std::shared_ptr<const FileLook> look)
 {
   Work after = this->work_;
   Status status = use_mesh(mesh, name, source, after);
   if (status.ok())
   {
+    after.look = std::move(look);
     this->push(tr("open %1").arg(name), after);
   }
   return status;

@@ -71,7 +71,9 @@ public:
   // ---- Opening files ----
   /// Open a surface, or tets and their boundary surface. On invalid_input (the dataset is neither a
   /// surface nor tets), nothing changes.
-  bindpose::Status set_mesh(vtkDataSet* mesh, const QString& name, const Source& source = {});
+  /// @param look  materials, textures and vertex colors of the surface; null: none
+  bindpose::Status set_mesh(vtkDataSet* mesh, const QString& name, const Source& source = {},
+    std::shared_ptr<const bindpose::FileLook> look = nullptr);
   /// Open handles with the pose that is in their arrays.
   bindpose::Status set_handles(
     vtkPolyData* handles, const QString& name, const Source& source = {});

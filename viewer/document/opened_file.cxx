@@ -5,12 +5,14 @@
 #include "file_kind.h"
 #include "io/atomic_file.h"
 #include "io/dmat.h"
+#include "look_file.h"
 #include "pictures/picture_file.h"
 #include "pose/pose_file.h"
 #include "report_field_data.h"
 #include "scene/categories.h"
 #include "scene/curves.h"
 
+#include "vtkAssetReader.h"
 #include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
 #include "vtkGLTFSkinReader.h"
@@ -24,6 +26,8 @@
 
 #include <QString>
 #include <QThread>
+
+#include <algorithm>
 
 using namespace bindpose;
 
@@ -68,6 +72,21 @@ Status read_with(Reader* reader, const std::string& path, const RunReader& run, 
   }
   return status;
 }
+
+/// Read a file with the mesh as output 0 of the reader, and the handles of its skin as output 1.
+template <typename Reader>
+Status read_with_handles(const std::string& path, const RunReader& run, OpenedFile& file)
+{
+  vtkNew<Reader> reader;
+  const Status status = read_with(reader.Get(), path, run, file);
+  if (status.ok())
+  {
+    auto* handles = vtkPolyData::SafeDownCast(reader->GetOutputDataObject(1));
+    file.handles = handles->GetNumberOfCells() > 0 ? handles : nullptr;
+    file.look = read_look(path, file.data, file.warnings);
+  }
+  return status;
+}
 } // namespace
 
 Status read_file(const std::string& path, OpenedFile& file, const RunReader& run)
@@ -97,16 +116,15 @@ Status read_file(const std::string& path, OpenedFile& file, const RunReader& run
     file.data = picture;
     return status;
   }
-  if (is_listed(file_extension(path), vtkGLTFSkinReader::GetFileExtensions()))
+  const std::string extension = file_extension(path);
+  if (is_listed(extension, vtkGLTFSkinReader::GetFileExtensions()))
   {
-    vtkNew<vtkGLTFSkinReader> reader;
-    const Status status = read_with(reader.Get(), path, run, file);
-    auto* handles = vtkPolyData::SafeDownCast(reader->GetOutputDataObject(1));
-    if (status.ok() && handles->GetNumberOfCells() > 0)
-    {
-      file.handles = handles;
-    }
-    return status;
+    return read_with_handles<vtkGLTFSkinReader>(path, run, file);
+  }
+  if (!is_listed(extension, vtkMeshFileReader::GetFileExtensions()) &&
+    is_listed(extension, vtkAssetReader::GetFileExtensions()))
+  {
+    return read_with_handles<vtkAssetReader>(path, run, file);
   }
   vtkNew<vtkMeshFileReader> reader;
   Status status = read_with(reader.Get(), path, run, file);
@@ -127,7 +145,39 @@ Status read_file(const std::string& path, OpenedFile& file, const RunReader& run
   file.kind = is_curve_data(file.data) ? OpenedFile::Kind::curves
     : looks_like_handles(file.data)    ? OpenedFile::Kind::handles
                                        : OpenedFile::Kind::mesh;
+  if (file.kind == OpenedFile::Kind::mesh)
+  {
+    file.look = read_look(path, file.data, file.warnings);
+  }
   return status;
+}
+
+std::shared_ptr<const FileLook> read_look(
+  const std::string& path, vtkDataSet* mesh, std::vector<std::string>& warnings)
+{
+  auto* surface = vtkPolyData::SafeDownCast(mesh);
+  if (!surface || surface->GetNumberOfPolys() == 0 ||
+    !is_listed(file_extension(path), look_extensions()))
+  {
+    return nullptr;
+  }
+  const auto look = std::make_shared<FileLook>();
+  ExecutionContext context;
+  const Status status = read_look_file(context, path, *look);
+  for (const std::string& warning : status.warnings)
+  {
+    if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
+    {
+      warnings.push_back(warning);
+    }
+  }
+  if (!status.ok())
+  {
+    warnings.push_back("the look of the mesh is not drawn: " + status.message);
+    return nullptr;
+  }
+  const bool fits = look->surface.point_count == surface->GetNumberOfPoints();
+  return fits && !look->surface.is_plain() ? look : nullptr;
 }
 
 Status make_shape(

@@ -14,10 +14,15 @@
 
 #include <functional>
 #include <future>
+#include <memory>
 #include <string>
 #include <vector>
 
 class vtkBindposeAlgorithm;
+namespace bindpose
+{
+struct FileLook;
+} // namespace bindpose
 
 // Reading and writing of the files of a document. Nothing is printed to the terminal.
 
@@ -35,7 +40,9 @@ struct OpenedFile
   };
   Kind kind = Kind::mesh;
   vtkSmartPointer<vtkDataSet> data;
-  vtkSmartPointer<vtkPolyData> handles; ///< handles of the mesh's skin in a glTF file
+  vtkSmartPointer<vtkPolyData> handles; ///< handles of the mesh's skin in its file
+  /// Materials, textures and vertex colors of the mesh; null: the file has only a shape.
+  std::shared_ptr<const bindpose::FileLook> look;
   bindpose::Weights weights;
   std::vector<std::string> warnings; ///< warnings of the reader, mostly about data that is lost
   /// SHA-256 of the file in hex; empty if the file has disappeared.
@@ -48,6 +55,12 @@ using RunReader = std::function<bindpose::Status(vtkBindposeAlgorithm*)>;
 /// interrupted; not used for images and weights
 bindpose::Status read_file(
   const std::string& path, OpenedFile& file, const RunReader& run = nullptr);
+
+/// Read the materials, textures and vertex colors of a mesh file. Return null if the file has none,
+/// or if they do not belong to the points of `mesh`. Append one warning for each part that cannot
+/// be read.
+std::shared_ptr<const bindpose::FileLook> read_look(
+  const std::string& path, vtkDataSet* mesh, std::vector<std::string>& warnings);
 
 /// Make a textured shape from an image: triangles with texture coordinates (vtkPlanarShape). The
 /// image's alpha determines the shape. If the image is opaque or `is_whole_image` is true, the

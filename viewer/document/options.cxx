@@ -161,6 +161,7 @@ std::vector<OptionInfo> make_option_table()
     { "motion.damping", QT_TRANSLATE_NOOP("Document", "damping"), body.damping, 0.0, 20.0 },
     { "show.column", QT_TRANSLATE_NOOP("Document", "displayed weights"), 0, 0, column_limit },
     { "show.outlines", QT_TRANSLATE_NOOP("Document", "outlines"), true },
+    { "show.look", QT_TRANSLATE_NOOP("Document", "materials and textures"), true },
     { "weights.column", QT_TRANSLATE_NOOP("Document", "inspected handle"), 0, 0, column_limit },
     { "weights.bands", QT_TRANSLATE_NOOP("Document", "bands"), true },
     { "weights.isolines", QT_TRANSLATE_NOOP("Document", "isolines"), true },

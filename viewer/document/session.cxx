@@ -289,6 +289,11 @@ private:
       }
       work.differs_from_file = true;
       work.weighted_tets = vtkUnstructuredGrid::SafeDownCast(tets);
+      if (has_input && current_checksum == source.checksum)
+      {
+        std::vector<std::string> warnings; // shown when the file was opened for the first time
+        work.look = read_look(source.path.toStdString(), work.surface, warnings);
+      }
       if (has_input && current_checksum != source.checksum)
       {
         session.notes << (current_checksum.isEmpty()
@@ -316,6 +321,7 @@ private:
       {
         session.notes << tr("%1 has changed since the session was saved.").arg(file);
       }
+      work.look = read ? opened.look : nullptr;
     }
     if (is_damaged)
     {

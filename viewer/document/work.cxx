@@ -112,7 +112,7 @@ int differences(const Work& a, const Work& b)
     same_source(a.picture_source, b.picture_source) &&
     same_source(a.volume_source, b.volume_source) && same_source(a.curve_source, b.curve_source);
   const bool mesh = same_mesh(a.surface, b.surface) && a.mesh_tets == b.mesh_tets &&
-    a.picture == b.picture && a.name == b.name;
+    a.picture == b.picture && a.look == b.look && a.name == b.name;
   const bool weights = a.surface == b.surface && a.weighted_tets == b.weighted_tets &&
     a.bound_handles == b.bound_handles;
   return (mesh ? 0 : mesh_part) | (weights ? 0 : weights_part) |
@@ -140,6 +140,7 @@ void apply_edit(const Work& before, const Work& after, Work& work)
   }
   apply_change(before.stored_poses, after.stored_poses, work.stored_poses);
   apply_change(before.picture, after.picture, work.picture);
+  apply_change(before.look, after.look, work.look);
   apply_change(before.volume, after.volume, work.volume);
   apply_change(before.volume_name, after.volume_name, work.volume_name);
   apply_change(before.curves, after.curves, work.curves);

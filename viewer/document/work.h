@@ -18,6 +18,11 @@
 #include <string>
 #include <vector>
 
+namespace bindpose
+{
+struct FileLook;
+} // namespace bindpose
+
 /// The file from which data was read. The path is empty if the data was made in the program.
 struct Source
 {
@@ -32,6 +37,8 @@ struct Work
 {
   QString name; ///< name of the mesh, for the window title
   vtkSmartPointer<vtkPolyData> surface; ///< surface at rest; the array Weights is optional
+  /// Materials, textures and vertex colors of the surface; null: it has none.
+  std::shared_ptr<const bindpose::FileLook> look;
   bool differs_from_file = true; ///< true if the surface or its weights differ from the mesh's file
   /// The tets whose boundary is the surface; or null.
   vtkSmartPointer<vtkUnstructuredGrid> mesh_tets;
@@ -54,7 +61,7 @@ struct Work
 /// Parts of the work, as flags. They state which parts differ between two states.
 enum WorkPart : int
 {
-  mesh_part = 1, ///< the surface (apart from its weights), its tets, texture and name
+  mesh_part = 1, ///< the surface (apart from its weights), its tets, picture, look and name
   /// The weights of the surface, the tets on which they were solved, and the bound handles.
   weights_part = 2,
   handles_part = 4, ///< the handles at rest

@@ -79,6 +79,7 @@ Status use_mesh(vtkDataSet* mesh, const QString& name, const Source& source, Wor
   work.weighted_tets = work.mesh_tets;
   work.differs_from_file = source.path.isEmpty();
   work.picture = nullptr;
+  work.look = nullptr;
   work.mesh_source = source;
   work.picture_source = Source();
   if (weights_of(skin))

@@ -147,8 +147,8 @@ void PoseGhost::update_opacities(bindpose::PointsView points, bindpose::PointsVi
   this->shaded_->polydata()->GetPointData()->AddArray(this->distances_);
 }
 
-/// In the right half of a split view, draw the ghost with the same texture or outlines as the
-/// current shape.
+/// In the right half of a split view, draw the ghost with the same picture or outlines as the
+/// current shape. (Both halves show meshes without the materials of their files.)
 void PoseGhost::match_first_shape()
 {
   vtkTexture* picture = this->viewport_->surface_actor()->GetTexture();

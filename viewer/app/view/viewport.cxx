@@ -13,6 +13,8 @@
 #include "shapes/moved_surface_mapper.h"
 #include "shapes/outline.h"
 #include "shapes/shaded_surface.h"
+#include "shapes/surroundings.h"
+#include "shapes/textured_surface.h"
 
 #include "conversion.h"
 
@@ -172,6 +174,7 @@ void Viewport::set_surface(vtkPolyData* surface)
       mapper->SetInputData(surface ? this->shaded_->polydata() : nullptr);
     }
     this->outline_->set_shape(this->shaded_.get());
+    this->set_look(nullptr, nullptr);
   }
   this->depths_.resize(0);
   this->first_picture_ = true;
@@ -181,9 +184,19 @@ void Viewport::set_surface(vtkPolyData* surface)
 
 void Viewport::set_surface_appearance(int appearance)
 {
+  vtkPolyDataMapper* before = this->value_mapper();
   this->surface_appearance_ = appearance;
+  this->move_colors(before);
   vtkProperty* property = this->actor_->GetProperty();
-  this->actor_->SetVisibility(this->shaded_ && appearance != hidden);
+  const bool draws_look = this->draws_look();
+  this->actor_->SetVisibility(this->shaded_ && appearance != hidden && !draws_look);
+  if (this->textured_)
+  {
+    for (const auto& actor : this->textured_->actors())
+    {
+      actor->SetVisibility(draws_look);
+    }
+  }
   property->SetOpacity(appearance == see_through ? 0.25 : 1.0);
   property->SetRepresentation(appearance == edges_only ? VTK_WIREFRAME : VTK_SURFACE);
   property->SetLighting(appearance != edges_only && !this->picture_);
@@ -192,12 +205,14 @@ void Viewport::set_surface_appearance(int appearance)
     : this->picture_                                    ? white
                                                         : bindpose::palette::surface;
   bindpose::set_color(property, color);
-  this->outline_->show(
-    this->outlines_ && !this->picture_ && (appearance == solid || appearance == see_through),
+  this->outline_->show(this->outlines_ && !this->picture_ && !draws_look &&
+      (appearance == solid || appearance == see_through),
     bindpose::outline_width * this->devicePixelRatioF());
   this->show_tint();
   // Sorting translucent triangles by depth requires one sample per pixel.
-  const bool sorts_by_depth = (appearance == see_through || this->ghosted_) && this->shaded_;
+  const bool sorts_by_depth = this->shaded_ &&
+    (appearance == see_through || this->ghosted_ ||
+      (draws_look && this->look_->surface.is_translucent()));
   this->renderer_->SetUseDepthPeeling(sorts_by_depth);
   this->renderer_->SetMaximumNumberOfPeels(6);
   this->renderer_->SetUseFXAA(sorts_by_depth);
@@ -236,6 +251,66 @@ void Viewport::set_picture(vtkImageData* picture)
   this->set_surface_appearance(this->surface_appearance_);
 }
 
+void Viewport::set_look(std::shared_ptr<const bindpose::FileLook> look, vtkPolyData* rest)
+{
+  if (look == this->look_)
+  {
+    return;
+  }
+  vtkPolyDataMapper* before = this->value_mapper();
+  if (this->textured_)
+  {
+    for (const auto& actor : this->textured_->actors())
+    {
+      this->renderer_->RemoveActor(actor);
+    }
+  }
+  this->textured_.reset();
+  this->look_ = std::move(look);
+  if (this->look_)
+  {
+    this->textured_ =
+      std::make_unique<bindpose::TexturedSurface>(*this->look_, bindpose::to_points(rest).view());
+    for (const auto& actor : this->textured_->actors())
+    {
+      this->renderer_->AddActor(actor);
+    }
+    bindpose::add_surroundings(this->renderer_, bindpose::Vec3::UnitY());
+  }
+  this->move_colors(before);
+  this->set_surface_appearance(this->surface_appearance_);
+}
+
+void Viewport::show_look(bool shown)
+{
+  vtkPolyDataMapper* before = this->value_mapper();
+  this->look_shown_ = shown;
+  this->move_colors(before);
+  this->set_surface_appearance(this->surface_appearance_);
+}
+
+bool Viewport::draws_look() const
+{
+  return this->textured_ && this->look_shown_ && this->surface_appearance_ == solid &&
+    !this->right_renderer_;
+}
+
+/// Move the colors of values from the mapper that has shown them to value_mapper().
+void Viewport::move_colors(vtkPolyDataMapper* before)
+{
+  vtkPolyDataMapper* mapper = this->value_mapper();
+  if (mapper != before)
+  {
+    mapper->SetScalarMode(before->GetScalarMode());
+    mapper->SetInterpolateScalarsBeforeMapping(before->GetInterpolateScalarsBeforeMapping());
+    mapper->SetLookupTable(before->GetLookupTable());
+    mapper->SelectColorArray(before->GetArrayName());
+    mapper->SetArrayComponent(before->GetArrayComponent());
+    mapper->SetScalarVisibility(before->GetScalarVisibility());
+    before->ScalarVisibilityOff();
+  }
+}
+
 void Viewport::set_tint(double opacity)
 {
   this->tint_ = opacity;
@@ -247,17 +322,18 @@ void Viewport::set_tint(double opacity)
 /// tint_mapper_, which draws the colors over the texture.
 vtkPolyDataMapper* Viewport::value_mapper() const
 {
-  return this->picture_ ? this->tint_mapper_.Get()
-                        : static_cast<vtkPolyDataMapper*>(this->mapper_.Get());
+  return this->picture_ || this->draws_look()
+    ? this->tint_mapper_.Get()
+    : static_cast<vtkPolyDataMapper*>(this->mapper_.Get());
 }
 
 void Viewport::show_tint()
 {
-  this->tint_actor_->SetVisibility(this->picture_ && this->shaded_ &&
+  this->tint_actor_->SetVisibility((this->picture_ || this->draws_look()) && this->shaded_ &&
     this->surface_appearance_ == solid && this->tint_ > 0.0 &&
     this->tint_mapper_->GetScalarVisibility());
-  // The translucent tint needs no sorting by depth, because the opaque textured surface hides all
-  // parts of the tint behind it.
+  // The translucent tint needs no sorting by depth, because the textured surface, if it is opaque,
+  // hides all parts of the tint behind it.
   this->tint_actor_->GetProperty()->SetOpacity(this->tint_);
 }
 
@@ -324,20 +400,8 @@ void Viewport::set_extra_bounds(const bindpose::Box& box)
   this->extra_bounds_ = box;
 }
 
-void Viewport::move_surface(vtkPolyData* posed)
-{
-  this->move_surface(bindpose::to_points(posed).view());
-}
-
-void Viewport::move_surface(bindpose::PointsView points)
-{
-  if (this->shaded_)
-  {
-    this->move_shape(*this->shaded_, points);
-  }
-}
-
-void Viewport::move_shape(bindpose::ShadedSurface& shape, bindpose::PointsView points) const
+template <typename Shape>
+void Viewport::move_shape(Shape& shape, bindpose::PointsView points) const
 {
   if (this->depths_.size() != points.rows())
   {
@@ -347,6 +411,26 @@ void Viewport::move_shape(bindpose::ShadedSurface& shape, bindpose::PointsView p
   bindpose::Points drawn = points;
   drawn += this->depths_ * this->eye_direction_.transpose();
   shape.move(drawn);
+}
+template void Viewport::move_shape(
+  bindpose::ShadedSurface& shape, bindpose::PointsView points) const;
+
+void Viewport::move_surface(vtkPolyData* posed)
+{
+  this->move_surface(bindpose::to_points(posed).view());
+}
+
+void Viewport::move_surface(bindpose::PointsView points)
+{
+  if (!this->shaded_)
+  {
+    return;
+  }
+  this->move_shape(*this->shaded_, points);
+  if (this->textured_)
+  {
+    this->move_shape(*this->textured_, points);
+  }
 }
 
 void Viewport::set_ghosted(bool ghosted)
@@ -361,7 +445,10 @@ void Viewport::set_split(vtkRenderer* right_renderer, vtkPolyData* shape)
   this->right_shape_ = shape;
   if (right_renderer != this->right_renderer_)
   {
+    vtkPolyDataMapper* mapper_before = this->value_mapper();
     this->right_renderer_ = right_renderer;
+    this->move_colors(mapper_before);
+    this->set_surface_appearance(this->surface_appearance_);
     this->renderer_->SetViewport(0.0, 0.0, right_renderer ? 0.5 : 1.0, 1.0);
     this->use_appearance();
     this->draw_legend();

@@ -23,6 +23,8 @@ namespace bindpose
 class Outline;
 class MovedSurfaceMapper;
 class ShadedSurface;
+class TexturedSurface;
+struct FileLook;
 } // namespace bindpose
 class vtkActor;
 class vtkCamera;
@@ -63,7 +65,9 @@ public:
   void move_surface(bindpose::PointsView points);
   /// Move the points of another drawn shape, for example the ghost. The shape must have the points
   /// and cells of the surface, in another pose.
-  void move_shape(bindpose::ShadedSurface& shape, bindpose::PointsView points) const;
+  /// @tparam Shape ShadedSurface or TexturedSurface
+  template <typename Shape>
+  void move_shape(Shape& shape, bindpose::PointsView points) const;
   /// Set the offset of each point (#V, world units) along the unit vector `eye_direction`, which
   /// points to the eye. In a planar shape the offsets determine which parts are in front. An empty
   /// vector or set_surface() removes the offsets.
@@ -114,13 +118,26 @@ public:
   const std::vector<bindpose::Index>& drawn_points() const;
   void set_surface_appearance(int appearance);
   int surface_appearance() const { return this->surface_appearance_; }
-  /// Show or hide silhouette lines. Textured surfaces have none.
+  /// Show or hide silhouette lines. Surfaces with textures have none.
   void show_outlines(bool shown);
   bool has_outlines() const { return this->outlines_; }
   /// Set the image that is the texture of the surface. Colors of weights are drawn over it. Null:
   /// no texture.
   void set_picture(vtkImageData* picture);
   bool has_picture() const { return this->picture_ != nullptr; }
+  /// Set the materials, textures and vertex colors of the surface; null: none. set_surface() with
+  /// another mesh removes them. `rest` is the surface at rest. They are drawn on a solid surface in
+  /// an undivided view.
+  void set_look(std::shared_ptr<const bindpose::FileLook> look, vtkPolyData* rest);
+  /// Show or hide the look. If it is shown, colors of weights are drawn over it.
+  void show_look(bool shown);
+  bool shows_look() const { return this->look_shown_; }
+  /// Report whether the surface has textures that are shown, so that colors of weights are drawn
+  /// over them.
+  bool has_texture() const
+  {
+    return this->picture_ != nullptr || (this->textured_ && this->look_shown_);
+  }
   /// Set the opacity of the colors over a texture, from 0 (only the texture) to 1 (only the
   /// colors).
   void set_tint(double opacity);
@@ -193,6 +210,8 @@ private:
   void render_requested();
   void use_column();
   vtkPolyDataMapper* value_mapper() const;
+  void move_colors(vtkPolyDataMapper* before);
+  bool draws_look() const;
   void show_tint();
   double pixel_scale() const;
   void set_pixel_scale();
@@ -207,6 +226,9 @@ private:
   vtkNew<vtkHandleSetWidget> handles_;
   vtkNew<vtkRegionBrushWidget> brush_;
   std::unique_ptr<bindpose::ShadedSurface> shaded_;
+  std::unique_ptr<bindpose::TexturedSurface> textured_; // the surface with its look; may be null
+  std::shared_ptr<const bindpose::FileLook> look_;
+  bool look_shown_ = true;
   std::unique_ptr<bindpose::Outline> outline_;
   bool outlines_ = true;
   Eigen::VectorXd depths_;

@@ -157,6 +157,7 @@ void WeightInspection::update_panel_state()
   state.has_handles = this->has_handles_;
   state.has_volume = this->volume_ != nullptr;
   state.has_picture = this->viewport_->has_picture();
+  state.has_texture = this->viewport_->has_texture();
   state.comparing = this->job_.is_running();
   state.compared = this->compared_ != nullptr;
   state.method = method_of_weights(this->surface_);

@@ -44,6 +44,8 @@ public:
 
   void compare(int method); ///< compute weights with another method, an index of weight_methods()
   void cancel() { this->job_.cancel(); }
+  /// Enable and show the widgets of the panel that the data and the viewport need.
+  void update_panel_state();
   bool is_busy() const { return this->job_.is_running(); }
 
   /// Return how the surface is drawn (Viewport::SurfaceAppearance): see-through if a slice is
@@ -64,7 +66,6 @@ Q_SIGNALS:
 
 private:
   void update();
-  void update_panel_state();
   void comparison_finished();
   void show_position();
   QString certificate(int column) const;

@@ -115,8 +115,8 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   tint->setSpacing(4);
   tint->addWidget(new QLabel(tr("Opacity of the colors"), this->tint_row_));
   this->tint_ = parts::option_row("weights.over_picture", this->tint_row_);
-  this->tint_->setToolTip(tr(
-    "Opacity of the colors: 0 shows only the picture, 1 only the colors; isolines remain visible"));
+  this->tint_->setToolTip(tr("Opacity of the colors: 0 shows only the textures, 1 only the colors; "
+                             "isolines remain visible"));
   tint->addWidget(this->tint_);
   column->addWidget(this->tint_row_);
 
@@ -234,7 +234,7 @@ void WeightPanel::set_state(const State& state)
     this->normalization_group_->button(0)->setChecked(true);
   }
   this->compare_->setText(state.compared ? tr("Compare again") : tr("Compare"));
-  this->tint_row_->setVisible(state.has_picture);
+  this->tint_row_->setVisible(state.has_texture);
   for (QWidget* inside : { static_cast<QWidget*>(this->inside_),
          static_cast<QWidget*>(this->slice_), static_cast<QWidget*>(this->position_) })
   {

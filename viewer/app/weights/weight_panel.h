@@ -57,7 +57,8 @@ public:
     /// The handles to which the columns belong are open, so another method can compute weights.
     bool has_handles = false;
     bool has_volume = false;
-    bool has_picture = false; ///< the surface has a texture, over which the colors are drawn
+    bool has_picture = false; ///< the surface is a planar shape, cut out of a picture
+    bool has_texture = false; ///< the colors are drawn over textures
     bool comparing = false;
     bool compared = false;
     /// The method of the weights, an index of bindpose::weight_methods(); -1: unknown.

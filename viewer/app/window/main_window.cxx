@@ -41,6 +41,7 @@
 #include "scene/camera.h"
 #include "scene/volume.h"
 
+#include "vtkAssetReader.h"
 #include "vtkCamera.h"
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
@@ -51,6 +52,7 @@
 
 #include <QApplication>
 #include <QCloseEvent>
+#include <QDir>
 #include <QDragEnterEvent>
 #include <QFileDialog>
 #include <QFileInfo>
@@ -120,6 +122,9 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), document_(new Doc
   this->links_->link_option(
     "show.outlines", [this] { return this->viewport_->has_outlines(); },
     [this](const QVariant& value) { this->show_outlines(value.toBool()); });
+  this->links_->link_option(
+    "show.look", [this] { return this->viewport_->shows_look(); },
+    [this](const QVariant& value) { this->show_look(value.toBool()); });
   link_plane(this->links_, this->document_, "volume", this->volume_view_->plane());
   link_plane(this->links_, this->document_, "tets", this->tet_inspection_->tet_view()->plane());
   link_plane(this->links_, this->document_, "weights", this->weights_->view()->plane());
@@ -309,6 +314,7 @@ void MainWindow::connect_menus()
   QObject::connect(menus, &WindowMenus::open_requested, this, &MainWindow::choose_and_open);
   QObject::connect(menus, &WindowMenus::flat_view_requested, this, &MainWindow::set_flat_view);
   QObject::connect(menus, &WindowMenus::outlines_requested, this, &MainWindow::show_outlines);
+  QObject::connect(menus, &WindowMenus::look_requested, this, &MainWindow::show_look);
   QObject::connect(menus, &WindowMenus::timeline_requested, this, &MainWindow::show_timeline);
   QObject::connect(menus, &WindowMenus::method_requested, this, &MainWindow::set_method);
 }
@@ -544,6 +550,7 @@ void MainWindow::show_mesh()
   this->drawn_surface_ = work.surface;
   this->viewport_->set_surface(work.surface);
   this->viewport_->set_picture(work.picture);
+  this->viewport_->set_look(work.look, work.surface);
   this->tet_inspection_->set_surface(work.surface, work.mesh_tets);
   Vec3 normal;
   const bool planar = work.surface && find_plane(to_points(work.surface).view(), normal);
@@ -702,6 +709,29 @@ bool MainWindow::open(const QString& path, const OpenedFile* read)
   return done;
 }
 
+/// Open the mesh in a folder, which may also contain its materials and pictures.
+bool MainWindow::open_folder(const QString& path)
+{
+  QStringList patterns;
+  for (const QString& extension : QString(vtkAssetReader::GetFileExtensions()).split(' '))
+  {
+    patterns << "*." + extension;
+  }
+  const QStringList meshes = QDir(path).entryList(patterns, QDir::Files, QDir::Name);
+  if (meshes.size() == 1)
+  {
+    return this->open(QDir(path).filePath(meshes.front()));
+  }
+  const QString name = short_name(path);
+  this->show_error(meshes.isEmpty()
+      ? tr("The folder %1 contains no mesh: expected one file %2.").arg(name, patterns.join(", "))
+      : tr("The folder %1 contains %2 meshes, such as %3 and %4: open one of them.")
+          .arg(name)
+          .arg(meshes.size())
+          .arg(meshes[0], meshes[1]));
+  return false;
+}
+
 bool MainWindow::open_file(const QString& path, const OpenedFile* read)
 {
   const QString name = short_name(path);
@@ -752,7 +782,7 @@ bool MainWindow::show_file(const OpenedFile& file, const QString& path)
     case OpenedFile::Kind::picture:
       return this->open_picture(vtkImageData::SafeDownCast(file.data), name, source, false);
     default:
-      return this->set_mesh(file.data, name, source) &&
+      return this->set_mesh(file.data, name, source, file.look) &&
         (!file.handles || this->set_handles(file.handles, name, source));
   }
 }
@@ -783,10 +813,11 @@ bool MainWindow::open_picture(
   return this->report_error(name, status);
 }
 
-bool MainWindow::set_mesh(vtkDataSet* mesh, const QString& name, const Source& source)
+bool MainWindow::set_mesh(vtkDataSet* mesh, const QString& name, const Source& source,
+  const std::shared_ptr<const FileLook>& look)
 {
   this->error_bar_->hide();
-  const bool done = this->report_error(name, this->document_->set_mesh(mesh, name, source));
+  const bool done = this->report_error(name, this->document_->set_mesh(mesh, name, source, look));
   if (done)
   {
     this->orient_planes();
@@ -837,7 +868,7 @@ void MainWindow::close_volume()
 void MainWindow::choose_and_open()
 {
   const QString extensions = QString(vtkMeshFileReader::GetFileExtensions()).replace(' ', " *.") +
-    " *.tgf *.glb *.gltf *.dmat *.png *.jpg *.jpeg *." + session_extension;
+    " *.tgf *.glb *.gltf *.fbx *.dae *.3ds *.3mf *.dmat *.png *.jpg *.jpeg *." + session_extension;
   for (const QString& path : QFileDialog::getOpenFileNames(this, tr("Open"), QString(),
          tr("All supported files (*.%1);;Sessions (*.%2);;All files (*)")
            .arg(extensions, session_extension),
@@ -860,7 +891,8 @@ void MainWindow::dropEvent(QDropEvent* event)
   bool opened = true;
   for (const QUrl& url : event->mimeData()->urls())
   {
-    opened = this->open(url.toLocalFile()) && opened;
+    const QString path = url.toLocalFile();
+    opened = (QFileInfo(path).isDir() ? this->open_folder(path) : this->open(path)) && opened;
   }
   event->setAccepted(opened);
 }
@@ -1062,6 +1094,14 @@ void MainWindow::show_outlines(bool shown)
   this->draw_pose(); // draw again, because the right half of a split view shows outlines too
   this->update_menus();
   this->links_->chosen("show.outlines");
+}
+
+void MainWindow::show_look(bool shown)
+{
+  this->viewport_->show_look(shown);
+  this->weights_->update_panel_state();
+  this->update_menus();
+  this->links_->chosen("show.look");
 }
 
 /// Determine how the surface is drawn. Tets hide the surface, and defects make it see-through. If

@@ -10,6 +10,7 @@
 #include <QMainWindow>
 
 #include <map>
+#include <memory>
 #include <optional>
 
 class QLabel;
@@ -86,7 +87,9 @@ public:
   /// used, show a sentence in the error bar, keep what is open, and return false.
   /// @param read  the contents of the file, if it was already read
   bool open(const QString& path, const OpenedFile* read = nullptr);
-  bool set_mesh(vtkDataSet* mesh, const QString& name, const Source& source = {});
+  /// @param look  materials, textures and vertex colors of the mesh; null: none
+  bool set_mesh(vtkDataSet* mesh, const QString& name, const Source& source = {},
+    const std::shared_ptr<const bindpose::FileLook>& look = nullptr);
   bool set_handles(vtkPolyData* handles, const QString& name, const Source& source = {});
   bool set_volume(vtkImageData* volume, const QString& name, const Source& source = {});
   bool set_curves(vtkPolyData* curves, const Source& source = {});
@@ -106,6 +109,8 @@ public:
   vtkPolyData* shown() const;
   /// Show or hide outlines, as an undo step.
   void show_outlines(bool shown);
+  /// Show or hide the materials and textures of the mesh, as an undo step.
+  void show_look(bool shown);
   /// Show or hide the key frames below the 3D view.
   void show_timeline(bool shown);
   /// Return the text of the label about the point under the mouse, in one line.
@@ -151,6 +156,7 @@ private:
   void show_state();
   void orient_planes();
   bool open_file(const QString& path, const OpenedFile* read);
+  bool open_folder(const QString& path);
   bool show_file(const OpenedFile& file, const QString& path);
   bool open_picture(
     vtkImageData* picture, const QString& name, const Source& source, bool is_whole_image);

@@ -169,6 +169,10 @@ void WindowMenus::add_view_menu()
   this->outlines_->setCheckable(true);
   this->outlines_->setToolTip(
     tr("Dark lines along the silhouette and the open edges of the shape"));
+  this->look_ = this->add(view, tr("M&aterials and textures"), "",
+    [this] { Q_EMIT this->look_requested(!this->parts_.viewport->shows_look()); });
+  this->look_->setCheckable(true);
+  this->look_->setToolTip(tr("Materials, textures and vertex colors of the mesh's file"));
   this->timeline_ = this->add(view, tr("Ti&meline"), "",
     [this] { Q_EMIT this->timeline_requested(this->timeline_->isChecked()); });
   this->timeline_->setCheckable(true);
@@ -239,6 +243,8 @@ void WindowMenus::update(const State& state)
   this->flat_view_->setEnabled(state.is_planar && !document->work().volume);
   this->flat_view_->setChecked(this->parts_.viewport->is_flat());
   this->outlines_->setChecked(this->parts_.viewport->has_outlines());
+  this->look_->setEnabled(document->work().look != nullptr);
+  this->look_->setChecked(this->parts_.viewport->shows_look());
   this->timeline_->setEnabled(document->surface());
   this->timeline_->setChecked(state.shows_timeline);
   this->parts_.shape_handles->update();

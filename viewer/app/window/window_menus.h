@@ -75,6 +75,7 @@ Q_SIGNALS:
   void open_requested();
   void flat_view_requested(bool flat);
   void outlines_requested(bool shown);
+  void look_requested(bool shown);
   void timeline_requested(bool shown);
   void method_requested(int method);
 
@@ -94,6 +95,7 @@ private:
   QAction* export_film_ = nullptr;
   QAction* flat_view_ = nullptr;
   QAction* outlines_ = nullptr;
+  QAction* look_ = nullptr;
   QAction* timeline_ = nullptr;
   QAction* find_ = nullptr;
   QAction* bind_ = nullptr;

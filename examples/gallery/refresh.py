@@ -26,7 +26,7 @@ SCRIPTS = ("../01_inside_outside.py", "open_crossing_flipped.py", "boundary_and_
            "near_limbs.py", "limbs_in_front.py", "colors_of_handles.py", "new_hues.py",
            "rigidity_brush.py", "original_and_faster.py", "spurious_extrema.py", "topological_simplification.py",
            "small_features.py", "mesh_independence.py",
-           "weights_in_volume.py", "preview_and_certified.py", "cost_of_weights.py", "clothes_on_a_body.py",
+           "weights_in_volume.py", "preview_and_certified.py", "cost_of_weights.py", "clothes_on_a_body.py", "materials_of_an_asset.py",
            "parents_and_children.py", "candy_wrapper.py", "bent_elbow.py", "stretch_and_twist.py", "dragged_points.py",
            "handle_modes.py", "drag_only.py", "disjoint_skeleton.py", "four_energies.py", "rotation_clusters.py",
            "surface_and_volume.py", "bent_furniture.py", "tether.py", "full_and_reduced.py", "extra_weights.py", "crowd.py",

@@ -11,7 +11,7 @@ NAMES = ["amount_of_insideness", "automatic_handles", "bent_elbow", "bent_furnit
          "boundary_and_parts", "candy_wrapper", "closing_holes", "clothes_on_a_body", "colors_of_handles",
          "cost_of_a_point", "cost_of_weights", "crowd", "cut_out_cartoon", "defect_classes", "disjoint_skeleton", "drag_only",
          "dragged_points", "extra_weights", "four_energies", "full_and_reduced", "growth", "handle_modes",
-         "hull_segmentation", "image_rectangle", "jello", "jump_and_harmonic", "limbs_in_front", "mesh_independence",
+         "hull_segmentation", "image_rectangle", "jello", "jump_and_harmonic", "limbs_in_front", "materials_of_an_asset", "mesh_independence",
          "near_limbs", "new_hues", "open_crossing_flipped", "orders_and_boundaries", "original_and_faster",
          "parents_and_children",
          "preview_and_certified", "procedural", "rig_in_a_file", "rigidity_brush", "rotation_clusters",
@@ -530,6 +530,13 @@ def test_clothes_on_a_body(tmp_path):
     assert numbers["inpaint: largest weight of an arm bone"] < 0.01
     assert numbers["inpaint: stretch of edges, largest"] < 0.5 * numbers["nearest: stretch of edges, largest"]
     assert numbers["inpaint: largest relative gap"] <= 1e-6 and 0 < numbers["inpaint: matched fraction"] < 1
+
+
+def test_materials_of_an_asset(tmp_path):
+    numbers = numbers_of("gallery/materials_of_an_asset.py", tmp_path)
+    assert numbers["materials"] == 2 and numbers["bones"] >= 9
+    assert numbers["the picture has the same bytes"]
+    assert numbers["largest relative gap of the weights"] <= 1e-6
 
 
 def test_automatic_handles(tmp_path):

@@ -151,7 +151,7 @@ job_count()
 
 # build [CMAKE OPTIONS…]: configure on the first run and if options are given, then build changed
 # files: all targets, or those in $build_targets.
-build_targets=""
+build_targets=${build_targets-}
 build()
 {
   if [ ! -f "$build_dir/build.ninja" ] || [ $# -gt 0 ]; then

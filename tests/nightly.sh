@@ -45,7 +45,7 @@ python3-venv:installs_the_wheel
 install_packages "$build_packages $test_packages $nightly_packages"
 # With these settings, the compiler cache ignores the folder, so the parts permissive and option recompile few files.
 export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1
-# Build only the tests that the parts use; tests/run.sh builds and runs all of them.
+# Build everything except the tests, then the only test program that the parts below use.
 build -DBINDPOSE_BUILD_TESTS=OFF
 build_targets=bindpose_core_tests
 build -DBINDPOSE_BUILD_TESTS=ON
@@ -100,7 +100,7 @@ includes()
   cmake -S "$root" -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE="-O0 -DNDEBUG" \
     -DCMAKE_UNITY_BUILD=OFF -DBINDPOSE_BUILD_TESTS=ON &&
     ninja -C "$folder" -t targets all | sed -n 's/: CXX_COMPILER__.*//p' | awk "NR % 8 == $(slice_of 8) - 1" |
-    xargs ninja -C "$folder"
+    xargs -r ninja -C "$folder" -k 0
 }
 
 option()
@@ -140,7 +140,7 @@ wheel()
 
 quickstart()
 {
-  "$root/examples/quickstart.sh" --headless --output "$build_dir/nightly-quickstart"
+  build_targets=bindpose "$root/examples/quickstart.sh" --headless --output "$build_dir/nightly-quickstart"
 }
 
 surfaces()

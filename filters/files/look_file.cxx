@@ -23,6 +23,7 @@ namespace bindpose
 namespace
 {
 constexpr int largest_side = 8192; // pixels; graphics drivers refuse larger textures
+constexpr vtkIdType most_pixels = vtkIdType(1) << 28; // of all pictures together: about 1 GB
 
 /// Return a picture whose sides are at most largest_side.
 vtkSmartPointer<vtkImageData> shrink(vtkImageData* picture)
@@ -63,6 +64,7 @@ Status read_pictures(ExecutionContext& context, const std::string& path, FileLoo
   Status status;
   std::vector<LookImage>& images = look.surface.images;
   look.pictures.resize(images.size());
+  vtkIdType all_pixels = 0;
   for (std::size_t k = 0; k < images.size(); ++k)
   {
     auto& [bytes, format] = images[k];
@@ -78,14 +80,21 @@ Status read_pictures(ExecutionContext& context, const std::string& path, FileLoo
     {
       return picture;
     }
-    if (picture.ok())
-    {
-      look.pictures[k] = widen(shrink(pixels));
-    }
-    else
+    if (!picture.ok())
     {
       status.warnings.push_back(picture.message);
+      continue;
     }
+    const vtkSmartPointer<vtkImageData> drawn = widen(shrink(pixels));
+    all_pixels += drawn->GetNumberOfPoints();
+    if (all_pixels > most_pixels)
+    {
+      status.warnings.push_back(path + ": picture " + std::to_string(k) +
+        " and all after it are not drawn because the pictures have more than " +
+        std::to_string(most_pixels) + " pixels");
+      return status;
+    }
+    look.pictures[k] = drawn;
   }
   return status;
 }

@@ -25,17 +25,20 @@ Status check_tga(const std::string& path)
   }
   const int type = byte(2);
   const std::size_t pixel_size = byte(16) / 8U;
-  const bool has_runs = type == 10 || type == 11;
-  if ((type != 2 && type != 3 && !has_runs) || byte(1) != 0 || pixel_size < 1 || pixel_size > 4)
+  const bool has_runs = type == 10;
+  if ((type != 2 && !has_runs) || byte(1) != 0 || (byte(16) != 24 && byte(16) != 32))
   {
-    return Status::invalid_input("the file is not a TGA picture with colors or gray values");
+    return Status::invalid_input("the TGA type is not supported; expected colors with 24 or 32 "
+                                 "bits, uncompressed or run-length encoded");
+  }
+  constexpr unsigned int largest_side = 32767;
+  if (word(12) < 1 || word(12) > largest_side || word(14) < 1 || word(14) > largest_side)
+  {
+    return Status::invalid_input("the picture has " + std::to_string(word(12)) + " x " +
+      std::to_string(word(14)) + " pixels; expected 1 to 32767 in each direction");
   }
   std::size_t missing = std::size_t(word(12)) * word(14);
   std::size_t at = header_size + byte(0);
-  if (missing == 0)
-  {
-    return Status::invalid_input("the picture has no pixels");
-  }
   if (!has_runs)
   {
     return at + missing * pixel_size <= bytes.size() ? Status() : truncated;
@@ -53,7 +56,11 @@ Status check_tga(const std::string& path)
     {
       return truncated;
     }
-    missing -= count < missing ? count : missing;
+    if (count > missing)
+    {
+      return Status::invalid_input("the file has more pixels than its header states");
+    }
+    missing -= count;
   }
   return {};
 }

@@ -8,8 +8,8 @@
 namespace bindpose
 {
 
-/// Check that a TGA file contains all its pixels. (VTK's reader fills missing pixels with any
-/// values.)
+/// Check that a TGA file has the pixels that its header states, in a format that VTK's reader
+/// supports. (This reader reads and writes beyond its buffers for damaged files.)
 Status check_tga(const std::string& path);
 
 } // namespace bindpose

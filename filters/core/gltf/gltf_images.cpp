@@ -57,6 +57,11 @@ std::string picture_format(std::string_view bytes, const std::string& name)
                                                               : "";
 }
 
+bool is_data_uri(const std::string& uri)
+{
+  return uri.compare(0, 5, "data:") == 0;
+}
+
 bool is_convertible(const std::string& format)
 {
   return format == "bmp" || format == "tif" || format == "tga";
@@ -100,7 +105,8 @@ Status read_gltf_image(
     bytes.assign(from.image.begin(), from.image.end());
     return {};
   }
-  return read_picture_bytes(from.uri, folder, bytes);
+  bytes.clear();
+  return is_data_uri(from.uri) ? Status() : read_picture_bytes(from.uri, folder, bytes);
 }
 
 } // namespace bindpose

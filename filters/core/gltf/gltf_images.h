@@ -22,13 +22,17 @@ bool is_convertible(const std::string& format);
 /// Converts a picture to PNG; see is_convertible(). Returns false if it cannot be read.
 using ConvertPicture = std::function<bool(const std::string& format, std::string& bytes)>;
 
+/// Report whether a URI contains its data.
+bool is_data_uri(const std::string& uri);
+
 /// Read the picture file that a URI names, relative to a folder. Throw GltfError for a file outside
 /// of the folder. Return invalid_input if the file cannot be read.
 Status read_picture_bytes(const std::string& uri, const std::string& folder, std::string& bytes);
 
 /// Read the bytes of an image, which is in a buffer, in the JSON text or in a file. Throw GltfError
 /// if the image does not exist, for a range outside of a buffer, and for a file outside of the
-/// folder. Return invalid_input if its file cannot be read.
+/// folder. Return invalid_input if its file cannot be read. The bytes are empty for a data URI of
+/// an unknown type.
 /// @param folder the folder of the glTF file
 Status read_gltf_image(
   const tinygltf::Model& model, int image, const std::string& folder, std::string& bytes);

@@ -42,9 +42,8 @@ struct GltfBufferFiles
 bool is_in_folder(const std::string& path, const std::string& folder);
 
 /// Parse the content of a .gltf or .glb file. Buffers are read. Images in the JSON text are kept as
-/// bytes; other images are not read. Throw GltfError for
-/// a file that is not valid, another version than 2.0, and required extensions that could change
-/// the geometry.
+/// bytes; other images are not read. Throw GltfError for a file that is not valid, another version
+/// than 2.0, and required extensions that could change the geometry.
 tinygltf::Model parse_gltf(const std::string& content, GltfBufferFiles& files);
 
 /// A glTF file that was read and parsed.

@@ -208,7 +208,7 @@ void GltfDocument::embed_images(const std::string& folder, std::vector<std::stri
       continue;
     }
     const auto uri = old["uri"].get<std::string>();
-    if (uri.compare(0, 5, "data:") == 0)
+    if (is_data_uri(uri))
     {
       continue;
     }
@@ -219,7 +219,7 @@ void GltfDocument::embed_images(const std::string& folder, std::vector<std::stri
     {
       warnings.push_back("the image '" + sanitize_line(uri) +
         "' is not stored in the file because " +
-        (status.ok() ? "it cannot be read as a picture" : status.message));
+        (status.ok() ? "it is damaged, or has a format that glTF does not allow" : status.message));
       continue;
     }
     const int view = this->append_view(bytes.data(), bytes.size(), 0);

@@ -159,7 +159,7 @@ private:
     this->sources_.push_back(sources.empty() ? CoordinateSource() : sources.front());
   }
 
-  LookTexture texture(int id) const
+  LookTexture texture(int id)
   {
     LookTexture result;
     if (id < 0)
@@ -167,8 +167,10 @@ private:
       return result;
     }
     const tinygltf::Texture& from = gltf_element(this->model_.textures, id, "texture");
-    if (from.source < 0) // for example a picture in a format that only an extension supports
+    if (from.source < 0)
     {
+      this->warnings_.push_back("texture " + std::to_string(id) +
+        " is not drawn because its picture has a format that only an extension allows");
       return result;
     }
     gltf_element(this->model_.images, from.source, "image");
@@ -312,7 +314,7 @@ private:
       if (!status.ok() || (format != "png" && format != "jpg" && !is_convertible(format)))
       {
         this->warnings_.push_back("the picture " +
-          (uri.empty() ? std::to_string(k) : "'" + sanitize_line(uri) + "'") +
+          (uri.empty() || is_data_uri(uri) ? std::to_string(k) : "'" + sanitize_line(uri) + "'") +
           " is not drawn because " +
           (status.ok() ? "it is not PNG, JPEG, BMP, TIFF or TGA" : status.message));
         bytes.clear();

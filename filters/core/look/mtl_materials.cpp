@@ -146,7 +146,9 @@ private:
     if (id < 0)
     {
       this->warnings_.push_back("the picture '" + sanitize_line(name) + "' is left out because " +
-        (status.ok() ? "it cannot be read as a picture" : status.message));
+        (status.ok()
+            ? "it is damaged or has an unknown format; expected PNG, JPEG, BMP, TIFF or TGA"
+            : status.message));
     }
     return id;
   }

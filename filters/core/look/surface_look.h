@@ -73,8 +73,8 @@ struct SurfaceLook
   std::vector<LookMaterial> materials;
   std::vector<LookImage> images;
 
-  /// Report whether the look adds nothing to the shape: no vertex colors, and no material with a
-  /// texture or with a color other than white.
+  /// Report whether the look adds no color to the shape: no vertex colors, and no material with a
+  /// texture, emission, or a base color other than white. Metallic and roughness are ignored.
   bool is_plain() const;
   /// Report whether a material of a triangle is translucent.
   bool is_translucent() const;

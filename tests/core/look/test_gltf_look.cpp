@@ -143,7 +143,7 @@ TEST_F(GltfLooks, TheFirstTextureOfAMaterialTransformsTheCoordinates)
   EXPECT_EQ(look.coordinates.row(2), Eigen::RowVector2d(1.0, 1.0 - 2.25));
 }
 
-TEST_F(GltfLooks, ColorsOfOneMeshMakeOthersWhite)
+TEST_F(GltfLooks, VerticesWithoutColorsAreWhite)
 {
   const Json colorless = this->triangle(0, 1, 2, -1);
   Points colors(4, 3);
@@ -158,7 +158,7 @@ TEST_F(GltfLooks, ColorsOfOneMeshMakeOthersWhite)
   EXPECT_FALSE(look.is_plain());
 }
 
-TEST_F(GltfLooks, ANodeThatMirrorsItsMeshKeepsTheFrontOutside)
+TEST_F(GltfLooks, MirroringNodesFlipTriangles)
 {
   this->document_.append("nodes", { { "mesh", 0 }, { "scale", { -1.0, 1.0, 1.0 } } });
   SurfaceLook look;
@@ -169,7 +169,7 @@ TEST_F(GltfLooks, ANodeThatMirrorsItsMeshKeepsTheFrontOutside)
   EXPECT_EQ(look.triangles.row(1), (Triangles(1, 3) << 3, 4, 5).finished());
 }
 
-TEST_F(GltfLooks, DefectsHaveOneSentence)
+TEST_F(GltfLooks, InvalidReferencesAreRefused)
 {
   const auto sentence = [this](const Json& material, const char* list = nullptr, Json entry = {})
   {

@@ -182,8 +182,7 @@ TEST_F(LookDocuments, PicturesThatCannotBeReadAreNamed)
   this->add_materials("newmtl m\nmap_Kd gone.png\nmap_Ke a.tga\n", { "m" });
   ASSERT_EQ(this->warnings_.size(), 2u);
   EXPECT_THAT(this->warnings_[0], HasSubstr("'gone.png' is left out because cannot open"));
-  EXPECT_THAT(
-    this->warnings_[1], HasSubstr("'a.tga' is left out because it cannot be read as a picture"));
+  EXPECT_THAT(this->warnings_[1], HasSubstr("'a.tga' is left out because it is damaged"));
   EXPECT_FALSE(this->document_.json().contains("images"));
   const test::Folder other;
   other.write("secret.png", png);

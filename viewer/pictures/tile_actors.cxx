@@ -187,10 +187,6 @@ void add_textured(vtkRenderer* renderer, vtkPolyData* surface, const FileLook& l
   const TexturedSurface textured(look, to_points(surface).view());
   for (const auto& actor : textured.actors())
   {
-    if (frame.flat)
-    {
-      actor->GetProperty()->BackfaceCullingOff(); // the default view may show the back
-    }
     renderer->AddActor(actor);
   }
   if (options.edges)

@@ -103,16 +103,18 @@ void apply_lit(LookTextures& textures, const LookMaterial& material, vtkActor* a
     property->SetNormalTexture(texture);
     property->SetNormalScale(material.normal_scale);
   }
-  if (!material.emission.isZero())
+  const bool has_texture = material.emission_texture.image >= 0;
+  vtkTexture* emission =
+    has_texture ? textures.texture(material.emission_texture, true) : textures.white();
+  if (emission && !material.emission.isZero())
   {
-    vtkTexture* texture = textures.texture(material.emission_texture, true);
-    property->SetEmissiveTexture(texture ? texture : textures.white());
+    property->SetEmissiveTexture(emission);
     property->SetEmissiveFactor(material.emission[0], material.emission[1], material.emission[2]);
   }
 }
 
-/// Set what is done with the opacity of a pixel: the opacity of the material, times the alpha of
-/// the vertex color and of the texture.
+/// Apply the alpha mode. The opacity of a pixel is the product of the opacities of material, vertex
+/// color and texture.
 void apply_alpha(const LookMaterial& material, bool has_colors, vtkActor* actor)
 {
   vtkShaderProperty* shader = actor->GetShaderProperty();

@@ -30,7 +30,7 @@ vtkStandardNewMacro(MovedSurfaceMapper);
 namespace
 {
 /// Return the addresses and modification times of all inputs of the buffers, except the times of
-/// points and normals, which may change without a rebuild.
+/// points, normals and tangents, which may change without a rebuild.
 std::vector<vtkMTimeType> state_of(MovedSurfaceMapper& mapper, vtkActor* actor)
 {
   std::vector<vtkMTimeType> state;
@@ -55,6 +55,7 @@ std::vector<vtkMTimeType> state_of(MovedSurfaceMapper& mapper, vtkActor* actor)
   add(
     points ? points->GetData() : nullptr, static_cast<vtkMTimeType>(surface->GetNumberOfPoints()));
   vtkDataArray* normals = surface->GetPointData()->GetNormals();
+  vtkDataArray* tangents = surface->GetPointData()->GetTangents();
   for (vtkDataSetAttributes* data : { static_cast<vtkDataSetAttributes*>(surface->GetPointData()),
          static_cast<vtkDataSetAttributes*>(surface->GetCellData()) })
   {
@@ -64,7 +65,8 @@ std::vector<vtkMTimeType> state_of(MovedSurfaceMapper& mapper, vtkActor* actor)
     for (int k = 0; k < data->GetNumberOfArrays(); ++k)
     {
       vtkAbstractArray* array = data->GetAbstractArray(k);
-      add(array, array == normals ? 0 : array->GetMTime());
+      const bool may_move = array == normals || array == tangents;
+      add(array, may_move ? 0 : array->GetMTime());
     }
   }
   return state;
@@ -159,7 +161,7 @@ void MovedSurfaceMapper::choose_shift()
   }
 }
 
-/// Upload only the positions and normals of the moved points.
+/// Upload only the positions, normals and tangents of the moved points.
 /// @return false if the buffers cannot be updated in place
 bool MovedSurfaceMapper::upload_moved()
 {
@@ -167,8 +169,10 @@ bool MovedSurfaceMapper::upload_moved()
   auto* normals = vtkFloatArray::SafeDownCast(this->CurrentInput->GetPointData()->GetNormals());
   vtkOpenGLVertexBufferObject* position_buffer = this->VBOs->GetVBO("vertexMC");
   vtkOpenGLVertexBufferObject* normal_buffer = this->VBOs->GetVBO("normalMC");
+  vtkDataArray* tangents = this->CurrentInput->GetPointData()->GetTangents();
+  vtkOpenGLVertexBufferObject* tangent_buffer = this->VBOs->GetVBO("tangentMC");
   if (!positions || !normals || !position_buffer || !normal_buffer ||
-    position_buffer->GetCoordShiftAndScaleEnabled() ||
+    (tangents && !tangent_buffer) || position_buffer->GetCoordShiftAndScaleEnabled() ||
     this->GetVBOShiftScaleMethod() != vtkOpenGLVertexBufferObject::DISABLE_SHIFT_SCALE)
   {
     return false;
@@ -184,6 +188,10 @@ bool MovedSurfaceMapper::upload_moved()
   if (normal_buffer->GetUploadTime() < normals->GetMTime())
   {
     normal_buffer->UploadDataArray(normals);
+  }
+  if (tangents && tangent_buffer->GetUploadTime() < tangents->GetMTime())
+  {
+    tangent_buffer->UploadDataArray(tangents);
   }
   return true;
 }

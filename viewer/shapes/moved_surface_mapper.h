@@ -11,8 +11,8 @@ namespace bindpose
 {
 
 /// A mapper for a surface whose points move in every frame while its triangles do not change. If
-/// only points and point normals have changed, the mapper uploads only these two arrays to the
-/// graphics card. VTK's own mapper also rebuilds the list of triangles, which takes most of the
+/// only points, point normals and tangents have changed, the mapper uploads only these arrays to
+/// the graphics card. VTK's own mapper also rebuilds the list of triangles, which takes most of the
 /// time.
 ///
 /// For the upload, VTK also shifts and scales the points unless the diagonal of their bounding box

@@ -24,9 +24,9 @@ struct SplitVertices
 /// differ by less than the feature angle. Each group gets a vertex of its own. Vertices that no
 /// triangle uses are dropped. vtkPolyDataNormals splits in the same way, on one core.
 ///
-/// At a seam, for example of textures, an edge has two copies with vertices of their own at the
-/// same positions, and one triangle at each copy. The vertices stay apart, but if the edge is not
-/// sharp, they share a normal, so that the shading does not show the seam.
+/// A seam is an edge that occurs twice, with different vertices at the same positions and one
+/// triangle each, for example at the border of a texture. Its vertices are not merged. They share a
+/// normal unless the edge is sharp.
 ///
 /// @param feature_angle  degrees, in (0, 180]
 /// @param triangles      #F x 3, input and output: vertex ids; on output, ids of the new vertices

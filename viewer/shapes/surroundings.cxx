@@ -24,7 +24,8 @@ namespace
 vtkSmartPointer<vtkImageData> make_sky()
 {
   constexpr int rows = 32, columns = 2 * rows;
-  // A dull white surface that faces the horizon reflects 0.4 of the light of a white sky.
+  // Radiance at the horizon, and difference to the zenith. With the lights of add_lights(), a dull
+  // white surface is nearly white, but not overexposed.
   constexpr double horizon = 0.44, gradient = 0.36;
   vtkNew<vtkFloatArray> colors;
   colors->SetNumberOfComponents(3);

@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "conversion.h"
+#include "scene/camera.h"
 #include "shapes/look_material.h"
 #include "shapes/moved_surface_mapper.h"
 #include "shapes/shaded_surface.h"
@@ -11,6 +12,7 @@
 #include "vtkIdTypeArray.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkProperty.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
@@ -59,6 +61,14 @@ TexturedSurface::TexturedSurface(const FileLook& look, PointsView rest)
   for (const auto& [material, ids] : triangles)
   {
     this->add_material(surface, material, ids, textures);
+  }
+  Vec3 normal;
+  if (find_plane(rest, normal))
+  {
+    for (const auto& actor : this->actors_)
+    {
+      actor->GetProperty()->BackfaceCullingOff(); // the default view may show the back
+    }
   }
 }
 
@@ -152,7 +162,12 @@ void TexturedSurface::add_material(const SurfaceLook& surface, Index material,
   const std::vector<Index>& triangles, LookTextures& textures)
 {
   vtkNew<MovedSurfaceMapper> mapper;
-  mapper->SetInputData(this->part_of(triangles));
+  const vtkSmartPointer<vtkPolyData> part = this->part_of(triangles);
+  if (material >= 0 && surface.materials[material].normal_texture.image >= 0)
+  {
+    part->GetPointData()->SetTangents(this->tangents_);
+  }
+  mapper->SetInputData(part);
   mapper->ScalarVisibilityOff();
   // Lines and colors on the surface are drawn in front of it.
   vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
@@ -216,7 +231,6 @@ void TexturedSurface::update_tangents()
     this->tangents_->SetName("Tangents");
     this->tangents_->SetNumberOfComponents(3);
     this->tangents_->SetNumberOfTuples(static_cast<vtkIdType>(count));
-    drawn->GetPointData()->SetTangents(this->tangents_);
   }
   const float* normals =
     vtkFloatArray::SafeDownCast(drawn->GetPointData()->GetNormals())->GetPointer(0);

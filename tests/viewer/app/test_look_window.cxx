@@ -170,7 +170,7 @@ TEST_F(LookWindow, AFolderWithOneMeshCanBeDropped)
   EXPECT_GT(this->greens(), 5000);
   this->folder_.write("second.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   EXPECT_FALSE(drop(this->folder_.path()));
-  EXPECT_TRUE(this->window.error().contains("2 meshes, such as ball.obj and second.obj"))
+  EXPECT_TRUE(this->window.error().contains("2 meshes, for example ball.obj and second.obj"))
     << this->window.error().toStdString();
   const test::Folder empty;
   EXPECT_FALSE(drop(empty.path()));

@@ -217,9 +217,9 @@ TEST(ShadedSurface, SeamsDoNotChangeNormals)
   }
 }
 
-TEST(ShadedSurface, ASurfaceAtTheSamePlaceIsNoSeam)
+TEST(ShadedSurface, CoincidentSurfacesWithOppositeOrientationShareNoNormals)
 {
-  // A part of a sphere, and the same part inside out. Their boundaries are at the same place.
+  // A part of a sphere, and the same part inside out. Their boundaries are at the same position.
   TriangleMesh sphere = test::sphere(2);
   sphere.triangles.conservativeResize(sphere.triangles.rows() / 2, 3);
   TriangleMesh both = test::join(sphere, sphere);

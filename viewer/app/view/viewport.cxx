@@ -275,7 +275,10 @@ void Viewport::set_look(std::shared_ptr<const bindpose::FileLook> look, vtkPolyD
     {
       this->renderer_->AddActor(actor);
     }
-    bindpose::add_surroundings(this->renderer_, bindpose::Vec3::UnitY());
+    if (!this->renderer_->GetEnvironmentTexture())
+    {
+      bindpose::add_surroundings(this->renderer_, bindpose::Vec3::UnitY());
+    }
   }
   this->move_colors(before);
   this->set_surface_appearance(this->surface_appearance_);
@@ -322,14 +325,13 @@ void Viewport::set_tint(double opacity)
 /// tint_mapper_, which draws the colors over the texture.
 vtkPolyDataMapper* Viewport::value_mapper() const
 {
-  return this->picture_ || this->draws_look()
-    ? this->tint_mapper_.Get()
-    : static_cast<vtkPolyDataMapper*>(this->mapper_.Get());
+  return this->has_texture() ? this->tint_mapper_.Get()
+                             : static_cast<vtkPolyDataMapper*>(this->mapper_.Get());
 }
 
 void Viewport::show_tint()
 {
-  this->tint_actor_->SetVisibility((this->picture_ || this->draws_look()) && this->shaded_ &&
+  this->tint_actor_->SetVisibility(this->has_texture() && this->shaded_ &&
     this->surface_appearance_ == solid && this->tint_ > 0.0 &&
     this->tint_mapper_->GetScalarVisibility());
   // The translucent tint needs no sorting by depth, because the textured surface, if it is opaque,

@@ -132,12 +132,9 @@ public:
   /// Show or hide the look. If it is shown, colors of weights are drawn over it.
   void show_look(bool shown);
   bool shows_look() const { return this->look_shown_; }
-  /// Report whether the surface has textures that are shown, so that colors of weights are drawn
-  /// over them.
-  bool has_texture() const
-  {
-    return this->picture_ != nullptr || (this->textured_ && this->look_shown_);
-  }
+  /// Report whether the surface is drawn with textures, so that colors of weights are drawn over
+  /// them.
+  bool has_texture() const { return this->picture_ != nullptr || this->draws_look(); }
   /// Set the opacity of the colors over a texture, from 0 (only the texture) to 1 (only the
   /// colors).
   void set_tint(double opacity);

@@ -724,11 +724,10 @@ bool MainWindow::open_folder(const QString& path)
   }
   const QString name = short_name(path);
   this->show_error(meshes.isEmpty()
-      ? tr("The folder %1 contains no mesh: expected one file %2.").arg(name, patterns.join(", "))
-      : tr("The folder %1 contains %2 meshes, such as %3 and %4: open one of them.")
-          .arg(name)
-          .arg(meshes.size())
-          .arg(meshes[0], meshes[1]));
+      ? tr("The folder %1 contains no mesh; expected exactly one file of these types: %2.")
+          .arg(name, patterns.join(", "))
+      : tr("The folder %1 contains %2 meshes, for example %3 and %4; open one of them.")
+          .arg(name, QString::number(meshes.size()), meshes[0], meshes[1]));
   return false;
 }
 
@@ -1116,6 +1115,7 @@ void MainWindow::update_surface_appearance()
     appearance == view::Viewport::solid && this->volume_view_->is_active()
       ? this->panels_->volume()->surface_appearance()
       : appearance);
+  this->weights_->update_panel_state();
 }
 
 void MainWindow::show_column(int column)

@@ -173,7 +173,7 @@ std::shared_ptr<const FileLook> read_look(
   }
   if (!status.ok())
   {
-    warnings.push_back("the look of the mesh is not drawn: " + status.message);
+    warnings.push_back("the materials and textures of the mesh are not drawn: " + status.message);
     return nullptr;
   }
   const bool fits = look->surface.point_count == surface->GetNumberOfPoints();

@@ -291,8 +291,12 @@ private:
       work.weighted_tets = vtkUnstructuredGrid::SafeDownCast(tets);
       if (has_input && current_checksum == source.checksum)
       {
-        std::vector<std::string> warnings; // shown when the file was opened for the first time
+        std::vector<std::string> warnings;
         work.look = read_look(source.path.toStdString(), work.surface, warnings);
+        for (const std::string& warning : warnings)
+        {
+          session.notes << QString::fromStdString(warning);
+        }
       }
       if (has_input && current_checksum != source.checksum)
       {

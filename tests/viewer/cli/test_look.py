@@ -129,7 +129,7 @@ def test_a_lit_texture_and_metal(folder):
         assert red > 100 and red > 2 * green and red > 2 * blue
 
 
-def test_a_normal_texture_tilts_the_light(folder):
+def test_a_normal_texture_changes_the_shading(folder):
     """Normals that point to the left and to the right get different light, because the main light is at one side."""
     lit = {"pbrMetallicRoughness": {"metallicFactor": 0}, "normalTexture": {"index": 0}}
     write_square(folder, lit, shapes.png(2, 1, lambda x, y: (40 if x == 0 else 216, 128, 215, 255)))
@@ -213,7 +213,7 @@ def test_the_look_of_another_file(folder):
     assert at(pixels, 0.25, 0.25) == RED
     folder.off("bar.off", shapes.bar())
     words = ("--size", "200x160", "-o", "q.png", "--look")
-    folder.run("render", "bar.off", *words, "square.gltf").is_refused("the mesh of square.gltf has 4 points, but bar.off has")
+    folder.run("render", "bar.off", *words, "square.gltf").is_refused("points, but the mesh of square.gltf has 4; --look needs")
     folder.run("render", "bar.off", *words, "bar.off").is_refused("bar.off", "expected .glb, .gltf, .obj, .ply")
     folder.run("render", "w.vtp", *words, "square.gltf", "--plain").is_refused("--look cannot be combined with --plain")
 
@@ -262,7 +262,7 @@ def test_other_formats_of_pictures_become_png(folder, name, picture):
     assert file.json["images"][0]["mimeType"] == "image/png"
     assert file.view(file.json["images"][0]["bufferView"])[1:4] == b"PNG"
     folder.write(name, picture[:-5])
-    assert f"the picture '{name}' is left out because it cannot be read as a picture" in render(folder, "s.obj")[1].err
+    assert f"the picture '{name}' is left out because it is damaged" in render(folder, "s.obj")[1].err
 
 
 def test_colors_of_a_ply_file(folder):
@@ -294,8 +294,8 @@ def test_bad_pictures(folder):
     folder.run("render", "square.gltf", "--look", "square.gltf", "-o", "x.png").is_refused("'../secret.png' is not in the folder")
 
 
-def test_a_huge_picture_costs_no_memory(folder):
-    """A PNG file that claims 100,000 x 100,000 pixels."""
+def test_a_png_header_with_a_huge_size(folder):
+    """A PNG file whose header states 100,000 x 100,000 pixels."""
     picture = bytearray(shapes.png(2, 2, four_colors))
     picture[16:24] = (100000).to_bytes(4, "big") * 2
     write_square(folder, unlit_picture(), bytes(picture))

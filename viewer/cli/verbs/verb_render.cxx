@@ -235,8 +235,9 @@ bool add_looks(Session& session, const std::vector<std::string>& files,
   const bool has_colors = !options.array.empty() || options.color_by != ColorBy::array;
   if (arguments.has("look") && (has_colors || arguments.has("defects") || arguments.has("plain")))
   {
-    return session.invalid(
-      "--look cannot be combined with --plain, --defects or colors of an array");
+    return session.invalid("--look cannot be combined with --plain, --defects, --array, --color, "
+                           "--component, --minus or "
+                           "--extrema");
   }
   if (has_colors || arguments.has("defects") || arguments.has("plain"))
   {
@@ -268,7 +269,7 @@ bool add_looks(Session& session, const std::vector<std::string>& files,
       }
       if (!status.ok())
       {
-        session.warn("the look of the mesh is not drawn: " + status.message);
+        session.warn("the materials and textures of the mesh are not drawn: " + status.message);
       }
       look = found;
     }
@@ -278,13 +279,13 @@ bool add_looks(Session& session, const std::vector<std::string>& files,
     }
     if (look->surface.point_count != mesh->GetNumberOfPoints())
     {
-      return session.invalid("the mesh of " + file + " has " +
-        std::to_string(look->surface.point_count) + " points, but " + files[k] + " has " +
-        std::to_string(mesh->GetNumberOfPoints()));
+      return session.invalid(files[k] + " has " + std::to_string(mesh->GetNumberOfPoints()) +
+        " points, but the mesh of " + file + " has " + std::to_string(look->surface.point_count) +
+        "; --look needs the file of the undeformed mesh");
     }
     tiles[k].look = look;
   }
-  return common.empty() || look || session.invalid("--look needs a mesh");
+  return common.empty() || look || session.invalid("--look needs a FILE with triangles");
 }
 
 /// List the files to draw. A sequence (.pvd) is replaced by the files of at most --frames evenly

@@ -4,7 +4,7 @@
 # parts:
 #   option       add an option to a scratch copy of the project
 #   permissive   build and test without GPL and AGPL parts and without OpenVDB
-#   includes     compile an eighth of the sources one by one
+#   includes     check that an eighth of the sources compile one by one
 #   asan         a third of the tests under the address and undefined-behavior sanitizers
 #   tidy         check the names in a quarter of the kernel files
 #   types        check the types and the documentation of the Python package
@@ -95,12 +95,8 @@ permissive()
 }
 
 includes()
-{ # unity builds compile several files as one, which hides a missing #include
-  local folder="$root/build-single"
-  cmake -S "$root" -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE="-O0 -DNDEBUG" \
-    -DCMAKE_UNITY_BUILD=OFF -DBINDPOSE_BUILD_TESTS=ON &&
-    ninja -C "$folder" -t targets all | sed -n 's/: CXX_COMPILER__.*//p' | awk "NR % 8 == $(slice_of 8) - 1" |
-    xargs -r ninja -C "$folder" -k 0
+{
+  /usr/bin/python3 "$root/tests/support/compile_alone.py" --build "$build_dir" --slice "$(slice_of 8)/8"
 }
 
 option()

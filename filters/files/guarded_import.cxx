@@ -1,10 +1,10 @@
 #include "guarded_import.h"
 
+#include "helper_file.h"
 #include "helper/helper_process.h"
 
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -55,14 +55,12 @@ Index memory_limit(double size)
 
 Status import_guarded(ExecutionContext& context, const std::string& path, std::string& bytes)
 {
-  std::error_code error;
-  const std::filesystem::path full = std::filesystem::absolute(path, error);
-  const auto size = error ? 0 : std::filesystem::file_size(full, error);
-  if (error)
+  std::string full;
+  double size = 0.0;
+  const Status found = find_for_helper(path, full, size);
+  if (!found.ok())
   {
-    const bool is_missing = error == std::errc::no_such_file_or_directory;
-    return Status::invalid_input(
-      path + " cannot be read: " + (is_missing ? "there is no such file" : error.message()));
+    return found;
   }
   const FileDescriptor result(anonymous_file("bindpose-import"));
   if (result.get() < 0)
@@ -72,10 +70,10 @@ Status import_guarded(ExecutionContext& context, const std::string& path, std::s
   }
   HelperRequest request;
   request.name = importer.program;
-  request.arguments = { full.string() };
-  request.memory_limit = memory_limit(static_cast<double>(size));
+  request.arguments = { full };
+  request.memory_limit = memory_limit(size);
   constexpr double bytes_per_second = 2e5;
-  request.time_limit = 10.0 + static_cast<double>(size) / bytes_per_second;
+  request.time_limit = 10.0 + size / bytes_per_second;
   HelperRun run;
   Status status = run_helper(context, importer, request, result.get(), run);
   if (status.ok() && !read_whole(result.get(), bytes))

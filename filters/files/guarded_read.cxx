@@ -4,6 +4,7 @@
 
 #include "dataset_record.h"
 #include "file_kind.h"
+#include "helper_file.h"
 #include "helper/helper_process.h"
 
 #include "vtkDataSet.h"
@@ -12,7 +13,6 @@
 #include <cctype>
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -120,17 +120,14 @@ Status read_guarded(
   ExecutionContext& context, const std::string& path, vtkSmartPointer<vtkDataSet>& data)
 {
   data = nullptr;
-  std::error_code error;
-  const std::filesystem::path full = std::filesystem::absolute(path, error);
-  const auto size = error ? 0 : std::filesystem::file_size(full, error);
-  if (error)
+  std::string full;
+  double size = 0.0;
+  const Status found = find_for_helper(path, full, size);
+  if (!found.ok())
   {
-    const bool is_missing = error == std::errc::no_such_file_or_directory;
-    return Status::invalid_input(
-      path + " cannot be read: " + (is_missing ? "there is no such file" : error.message()));
+    return found;
   }
-  return read_by_helper(
-    context, path, full.string(), -1, file_extension(path), static_cast<double>(size), data);
+  return read_by_helper(context, path, full, -1, file_extension(path), size, data);
 }
 
 Status read_guarded(ExecutionContext& context, const std::string& name, const std::string& bytes,

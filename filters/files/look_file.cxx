@@ -100,11 +100,6 @@ Status read_pictures(ExecutionContext& context, const std::string& path, FileLoo
 }
 } // namespace
 
-const char* look_extensions()
-{
-  return asset_extensions();
-}
-
 Status read_look_file(ExecutionContext& context, const std::string& path, FileLook& look)
 {
   look = FileLook();

@@ -22,14 +22,11 @@ struct FileLook
   std::vector<vtkSmartPointer<vtkImageData>> pictures;
 };
 
-/// Extensions of the files that read_look_file() reads.
-BINDPOSEFILTERS_EXPORT const char* look_extensions();
-
-/// Read the materials, textures and vertex colors of a file. The points of the look are those that
-/// vtkMeshFileReader reads from the file, or vtkAssetReader if vtkMeshFileReader does not read the
-/// format. The helper bindpose-reader decodes the pictures, because they may be damaged. Pictures
-/// that cannot be read are left out, with a warning. The result is plain if the file has only a
-/// shape; see SurfaceLook::is_plain().
+/// Read the materials, textures and vertex colors of a file that vtkAssetReader can read. The
+/// points of the look are those that vtkMeshFileReader reads from the file, or vtkAssetReader if
+/// vtkMeshFileReader does not read the format. The helper bindpose-reader decodes the pictures,
+/// because they may be damaged. Pictures that cannot be read are left out, with a warning. The
+/// result is plain if the file has only a shape; see SurfaceLook::is_plain().
 BINDPOSEFILTERS_EXPORT Status read_look_file(
   ExecutionContext& context, const std::string& path, FileLook& look);
 

@@ -157,7 +157,7 @@ std::shared_ptr<const FileLook> read_look(
 {
   auto* surface = vtkPolyData::SafeDownCast(mesh);
   if (!surface || surface->GetNumberOfPolys() == 0 ||
-    !is_listed(file_extension(path), look_extensions()))
+    !is_listed(file_extension(path), vtkAssetReader::GetFileExtensions()))
   {
     return nullptr;
   }

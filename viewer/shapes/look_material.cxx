@@ -3,6 +3,8 @@
 // texture give the results that glTF 2.0 defines.
 #include "shapes/look_material.h"
 
+#include "weight_uses/weighted_colors.h"
+
 #include "vtkActor.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
@@ -13,16 +15,10 @@
 #include "vtkUniforms.h"
 #include "vtkUnsignedCharArray.h"
 
-#include <cmath>
 #include <string>
 
 namespace bindpose
 {
-
-double to_srgb(double value)
-{
-  return value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055;
-}
 
 vtkTexture* LookTextures::texture(const LookTexture& from, bool is_color)
 {
@@ -74,8 +70,8 @@ void apply_unlit(LookTextures& textures, const LookMaterial& material, vtkActor*
 {
   vtkProperty* property = actor->GetProperty();
   property->LightingOff();
-  property->SetColor(to_srgb(material.base_color[0]), to_srgb(material.base_color[1]),
-    to_srgb(material.base_color[2]));
+  property->SetColor(from_linear_light(material.base_color[0]),
+    from_linear_light(material.base_color[1]), from_linear_light(material.base_color[2]));
   actor->SetTexture(textures.texture(material.base_color_texture, false));
 }
 

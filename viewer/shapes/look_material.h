@@ -14,9 +14,6 @@ class vtkActor;
 namespace bindpose
 {
 
-/// Convert a linear value to a value of sRGB (IEC 61966-2-1).
-double to_srgb(double value);
-
 /// The textures of a look. Materials share them, so that each picture is on the graphics card once.
 class LookTextures
 {

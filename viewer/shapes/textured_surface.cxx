@@ -1,5 +1,6 @@
 #include "shapes/textured_surface.h"
 
+#include "weight_uses/weighted_colors.h"
 #include "base/parallel.h"
 #include "conversion.h"
 #include "scene/camera.h"
@@ -36,10 +37,7 @@ TexturedSurface::TexturedSurface(const FileLook& look, PointsView rest)
   : points_(look.surface.points), positions_(static_cast<Index>(look.surface.points.size()), 3)
 {
   const SurfaceLook& surface = look.surface;
-  for (std::size_t v = 0; v < this->points_.size(); ++v)
-  {
-    this->positions_.row(static_cast<Index>(v)) = rest.row(this->points_[v]);
-  }
+  this->take_positions(rest);
   this->shaded_ = std::make_unique<ShadedSurface>(to_polydata(this->positions_, surface.triangles));
   this->add_coordinates(surface);
   std::map<Index, std::vector<Index>> triangles; // by material
@@ -81,6 +79,14 @@ vtkPolyData* TexturedSurface::polydata() const
 
 void TexturedSurface::move(PointsView points)
 {
+  this->take_positions(points);
+  this->shaded_->move(this->positions_);
+  this->update_tangents();
+}
+
+/// Set the positions of the vertices of the look.
+void TexturedSurface::take_positions(PointsView points)
+{
   ExecutionContext context;
   parallel_for(context, this->positions_.rows(), 8192,
     [&](Index begin, Index end)
@@ -90,8 +96,6 @@ void TexturedSurface::move(PointsView points)
         this->positions_.row(v) = points.row(this->points_[static_cast<std::size_t>(v)]);
       }
     });
-  this->shaded_->move(this->positions_);
-  this->update_tangents();
 }
 
 /// Add the texture coordinates to the drawn points.
@@ -132,7 +136,7 @@ void TexturedSurface::add_colors(const SurfaceLook& surface)
         const double value = surface.colors(vertices[static_cast<std::size_t>(v)], k) *
           (material ? material->base_color[k] : 1.0);
         colors->SetTypedComponent(
-          v, static_cast<int>(k), to_byte(needs_srgb && k < 3 ? to_srgb(value) : value));
+          v, static_cast<int>(k), to_byte(needs_srgb && k < 3 ? from_linear_light(value) : value));
       }
     }
   }

@@ -43,6 +43,7 @@ public:
   void move(PointsView points);
 
 private:
+  void take_positions(PointsView points);
   void add_coordinates(const SurfaceLook& surface);
   void add_colors(const SurfaceLook& surface);
   void add_material(const SurfaceLook& surface, Index material, const std::vector<Index>& triangles,

@@ -435,6 +435,14 @@ GltfNumbers read_gltf_attribute(const GltfAccessors& accessors,
   return numbers;
 }
 
+int gltf_color_type(const tinygltf::Model& model, const tinygltf::Primitive& primitive)
+{
+  const auto entry = primitive.attributes.find("COLOR_0");
+  const bool has_three = entry != primitive.attributes.end() &&
+    gltf_element(model.accessors, entry->second, "accessor").type == TINYGLTF_TYPE_VEC3;
+  return has_three ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_VEC4;
+}
+
 std::vector<Eigen::Affine3d> read_inverse_binds(
   const GltfAccessors& accessors, const tinygltf::Skin& skin)
 {

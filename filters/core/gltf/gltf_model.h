@@ -124,6 +124,10 @@ GltfNumbers read_gltf_attribute(const GltfAccessors& accessors,
   const tinygltf::Primitive& primitive, const char* name, int type, Index vertices,
   bool ids = false);
 
+/// Return the type of the attribute COLOR_0 of a primitive: VEC3 or VEC4, as a constant of
+/// tinygltf.
+int gltf_color_type(const tinygltf::Model& model, const tinygltf::Primitive& primitive);
+
 /// Return the inverse bind matrices of a skin, one per joint. They are the identity if the skin has
 /// none. Throw GltfError if there are fewer matrices than joints.
 std::vector<Eigen::Affine3d> read_inverse_binds(

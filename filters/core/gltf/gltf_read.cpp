@@ -39,12 +39,9 @@ struct Parts
 GltfNumbers read_colors(const tinygltf::Model& model, const GltfAccessors& accessors,
   const tinygltf::Primitive& primitive, Index vertices)
 {
-  const auto entry = primitive.attributes.find("COLOR_0");
-  const bool three = entry != primitive.attributes.end() &&
-    gltf_element(model.accessors, entry->second, "accessor").type == TINYGLTF_TYPE_VEC3;
-  GltfNumbers colors = read_gltf_attribute(
-    accessors, primitive, "COLOR_0", three ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_VEC4, vertices);
-  if (three)
+  const int type = gltf_color_type(model, primitive);
+  GltfNumbers colors = read_gltf_attribute(accessors, primitive, "COLOR_0", type, vertices);
+  if (type == TINYGLTF_TYPE_VEC3)
   {
     colors.conservativeResize(Eigen::NoChange, 4);
     colors.col(3).setOnes();

@@ -226,11 +226,8 @@ private:
     const CoordinateSource source = material >= 0 ? this->sources_[material] : CoordinateSource();
     const GltfNumbers& coordinates = this->attribute(
       primitive, "TEXCOORD_" + std::to_string(source.set), TINYGLTF_TYPE_VEC2, part.count);
-    const auto color = primitive.attributes.find("COLOR_0");
-    const bool has_three = color != primitive.attributes.end() &&
-      gltf_element(this->model_.accessors, color->second, "accessor").type == TINYGLTF_TYPE_VEC3;
-    const GltfNumbers& colors = this->attribute(
-      primitive, "COLOR_0", has_three ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_VEC4, part.count);
+    const GltfNumbers& colors =
+      this->attribute(primitive, "COLOR_0", gltf_color_type(this->model_, primitive), part.count);
     this->has_colors_ = this->has_colors_ || colors.rows() > 0;
     // A node that mirrors its mesh turns the triangles inside out; glTF draws their other side.
     const bool is_mirrored =

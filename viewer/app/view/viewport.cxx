@@ -184,9 +184,8 @@ void Viewport::set_surface(vtkPolyData* surface)
 
 void Viewport::set_surface_appearance(int appearance)
 {
-  vtkPolyDataMapper* before = this->value_mapper();
   this->surface_appearance_ = appearance;
-  this->move_colors(before);
+  this->move_colors();
   vtkProperty* property = this->actor_->GetProperty();
   const bool draws_look = this->draws_look();
   this->actor_->SetVisibility(this->shaded_ && appearance != hidden && !draws_look);
@@ -257,7 +256,6 @@ void Viewport::set_look(std::shared_ptr<const bindpose::FileLook> look, vtkPolyD
   {
     return;
   }
-  vtkPolyDataMapper* before = this->value_mapper();
   if (this->textured_)
   {
     for (const auto& actor : this->textured_->actors())
@@ -280,15 +278,12 @@ void Viewport::set_look(std::shared_ptr<const bindpose::FileLook> look, vtkPolyD
       bindpose::add_surroundings(this->renderer_, bindpose::Vec3::UnitY());
     }
   }
-  this->move_colors(before);
   this->set_surface_appearance(this->surface_appearance_);
 }
 
 void Viewport::show_look(bool shown)
 {
-  vtkPolyDataMapper* before = this->value_mapper();
   this->look_shown_ = shown;
-  this->move_colors(before);
   this->set_surface_appearance(this->surface_appearance_);
 }
 
@@ -298,19 +293,22 @@ bool Viewport::draws_look() const
     !this->right_renderer_;
 }
 
-/// Move the colors of values from the mapper that has shown them to value_mapper().
-void Viewport::move_colors(vtkPolyDataMapper* before)
+/// If the other mapper shows colors of values, move them to value_mapper().
+void Viewport::move_colors()
 {
   vtkPolyDataMapper* mapper = this->value_mapper();
-  if (mapper != before)
+  vtkPolyDataMapper* other = mapper == this->tint_mapper_
+    ? static_cast<vtkPolyDataMapper*>(this->mapper_)
+    : this->tint_mapper_.Get();
+  if (other->GetScalarVisibility())
   {
-    mapper->SetScalarMode(before->GetScalarMode());
-    mapper->SetInterpolateScalarsBeforeMapping(before->GetInterpolateScalarsBeforeMapping());
-    mapper->SetLookupTable(before->GetLookupTable());
-    mapper->SelectColorArray(before->GetArrayName());
-    mapper->SetArrayComponent(before->GetArrayComponent());
-    mapper->SetScalarVisibility(before->GetScalarVisibility());
-    before->ScalarVisibilityOff();
+    mapper->SetScalarMode(other->GetScalarMode());
+    mapper->SetInterpolateScalarsBeforeMapping(other->GetInterpolateScalarsBeforeMapping());
+    mapper->SetLookupTable(other->GetLookupTable());
+    mapper->SelectColorArray(other->GetArrayName());
+    mapper->SetArrayComponent(other->GetArrayComponent());
+    mapper->ScalarVisibilityOn();
+    other->ScalarVisibilityOff();
   }
 }
 
@@ -447,9 +445,7 @@ void Viewport::set_split(vtkRenderer* right_renderer, vtkPolyData* shape)
   this->right_shape_ = shape;
   if (right_renderer != this->right_renderer_)
   {
-    vtkPolyDataMapper* mapper_before = this->value_mapper();
     this->right_renderer_ = right_renderer;
-    this->move_colors(mapper_before);
     this->set_surface_appearance(this->surface_appearance_);
     this->renderer_->SetViewport(0.0, 0.0, right_renderer ? 0.5 : 1.0, 1.0);
     this->use_appearance();

@@ -207,7 +207,7 @@ private:
   void render_requested();
   void use_column();
   vtkPolyDataMapper* value_mapper() const;
-  void move_colors(vtkPolyDataMapper* before);
+  void move_colors();
   bool draws_look() const;
   void show_tint();
   double pixel_scale() const;

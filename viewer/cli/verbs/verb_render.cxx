@@ -17,6 +17,7 @@
 #include "pictures/video_file.h"
 #include "scene/categories.h"
 
+#include "vtkAssetReader.h"
 #include "vtkDataSet.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
@@ -250,7 +251,7 @@ bool add_looks(Session& session, const std::vector<std::string>& files,
     auto* mesh = vtkPolyData::SafeDownCast(tiles[k].data);
     const std::string& file = common.empty() ? files[k] : common;
     if (!mesh || mesh->GetNumberOfPolys() == 0 ||
-      (common.empty() && !is_listed(file_extension(file), look_extensions())))
+      (common.empty() && !is_listed(file_extension(file), vtkAssetReader::GetFileExtensions())))
     {
       continue;
     }

@@ -197,7 +197,7 @@ paraview()
 
 blender()
 {
-  ctest --test-dir "$build_dir" --no-tests=error --output-on-failure -R '^blender\.' &&
+  under_xvfb ctest --test-dir "$build_dir" --no-tests=error --output-on-failure -R '^blender\.' &&
     /usr/bin/python3 "$root/tests/blender/compare_bone_heat.py" --build "$build_dir" --slice "$(slice_of 4)/4" \
       --markdown "$build_dir/nightly-bone-heat.md"
 }

@@ -182,6 +182,37 @@ def free_rows(weights, points):
     return rows / rows.sum(axis=1)[:, None]
 
 
+def mirrored_mean(weights, names, points):
+    """Return the mean of the weights and of their mirror images along x. The weights of a bone are mirrored to the bone with
+    the opposite name. Vertices without a mirror image, and vertices with weights of a bone on one side that has no opposite
+    bone, keep their weights."""
+    opposite = [bpy.utils.flip_name(name) for name in names]  # the same name for a bone without a side
+    flipped = [names.index(other) if other in names else column for column, other in enumerate(opposite)]
+    is_alone = [other not in names for other in opposite]
+    if len(points) == 0:
+        return weights
+    mirrored = [Vector((-point.x, point.y, point.z)) for point in points]
+    images = np.array(nearest(points, mirrored))
+    size = max(max(values) - min(values) for values in zip(*points))
+    has_image = np.array([(point - points[image]).length <= 1e-3 * size for point, image in zip(mirrored, images)])
+    moves_alone = weights[:, is_alone].sum(axis=1) > WEIGHT_THRESHOLD
+    has_image &= ~(moves_alone | moves_alone[images])
+    rows = weights.copy()
+    rows[has_image] = (weights[has_image] + weights[images[has_image]][:, flipped]) / 2
+    return rows
+
+
+def largest_weights(weights, count):
+    """Return rows with the `count` largest weights and the same sums. 0: all weights."""
+    if count == 0 or count >= weights.shape[1]:
+        return weights
+    columns = np.argsort(-weights, axis=1, kind="stable")[:, :count]
+    kept = np.zeros_like(weights)
+    np.put_along_axis(kept, columns, np.take_along_axis(weights, columns, axis=1), axis=1)
+    sums = kept.sum(axis=1)
+    return kept * np.divide(weights.sum(axis=1), sums, out=np.zeros(len(sums)), where=sums > 0)[:, None]
+
+
 def set_vertex_groups(thing, names, weights):
     """Store weights in the vertex groups of the bones. Locked groups keep their weights; the others share the rest."""
     groups = {name: thing.vertex_groups.get(name) or thing.vertex_groups.new(name=name) for name in names}
@@ -210,10 +241,45 @@ def bind_armature(thing, armature):
         modifier.object = armature
 
 
-def make_armature(name, points, bones, context):
-    """Make an armature of bones between points. A bone that begins where another ends is its child."""
+def mirror_images(points, middle):
+    """Return for each point the index of its mirror image at the plane x = middle, or None. Points that are almost mirror
+    images are moved, so that they are exact."""
+    tolerance = 0.03 * max(max(values) - min(values) for values in zip(*points))
+
+    def mirrored(point):
+        return Vector((2 * middle - point.x, point.y, point.z))
+
+    neighbors = nearest(points, [mirrored(point) for point in points])
+    images = [other if neighbors[other] == index and (mirrored(points[index]) - points[other]).length <= tolerance else None
+              for index, other in enumerate(neighbors)]
+    for index, other in enumerate(images):
+        if other is not None and index <= other:
+            points[index] = (points[index] + mirrored(points[other])) / 2
+            points[other] = mirrored(points[index])
+    return images
+
+
+def bone_names(points, bones, images):
+    """Return names of bones. Two bones that are mirror images get the same name with the ends .L and .R, which Blender's
+    tools for symmetric poses expect."""
+    indices = {frozenset(ends): index for index, ends in enumerate(bones)}
+    names = [""] * len(bones)
+    for index, ends in enumerate(bones):
+        other = indices.get(frozenset(images[end] for end in ends), index)
+        if other == index:
+            names[index] = f"Bone.{index + 1:03}"
+        elif index < other:
+            is_left = sum(points[end].x for end in ends) > sum(points[end].x for end in bones[other])
+            names[index], names[other] = (f"Bone.{index + 1:03}.{side}" for side in ("LR" if is_left else "RL"))
+    return names
+
+
+def make_armature(name, points, bones, middle, context):
+    """Make an armature of bones between points. A bone that begins where another ends is its child. The armature is at the
+    mirror plane x = middle."""
     data = bpy.data.armatures.new(name)
     armature = bpy.data.objects.new(name, data)
+    armature.location.x = middle
     context.collection.objects.link(armature)
     for thing in context.selected_objects:
         thing.select_set(False)
@@ -221,9 +287,11 @@ def make_armature(name, points, bones, context):
     context.view_layer.objects.active = armature
     bpy.ops.object.mode_set(mode="EDIT")
     ending = {}
-    for head, tail in bones:
-        bone = data.edit_bones.new("Bone")
-        bone.head, bone.tail = points[head], points[tail]
+    to_local = Vector((-middle, 0, 0))
+    images = mirror_images(points, middle)
+    for (head, tail), bone_name in zip(bones, bone_names(points, bones, images)):
+        bone = data.edit_bones.new(bone_name)
+        bone.head, bone.tail = points[head] + to_local, points[tail] + to_local
         ending.setdefault(tail, bone.name)
     for (head, _), bone in zip(bones, list(data.edit_bones)):
         parent = ending.get(head)
@@ -342,17 +410,19 @@ class BindposeOperator:
             return {"CANCELLED"}
         if event.type != "TIMER":
             return {"PASS_THROUGH"}
-        done = False
+        runs, done = False, False
         try:
             context.window_manager.progress_update(100 * self.job.progress())
-            if not self.job.poll():
-                return {"PASS_THROUGH"}
-            self.finish_in_object_mode(context, self.job)
-            done = True
+            runs = not self.job.poll()
+            if not runs:
+                self.finish_in_object_mode(context, self.job)
+                done = True
         except (BindposeError, RuntimeError, ReferenceError, OSError) as error:
             self.report({"ERROR"}, str(error))
-        self.cancel(context)
-        return {"FINISHED"} if done else {"CANCELLED"}
+        finally:  # also after an error that is not expected
+            if not runs:
+                self.cancel(context)
+        return {"PASS_THROUGH"} if runs else {"FINISHED"} if done else {"CANCELLED"}
 
     def cancel(self, context):
         """End the program. Blender also calls this method when it ends the operator, for example to load a file."""
@@ -405,7 +475,9 @@ class OBJECT_OT_bindpose_weights(BindposeOperator, bpy.types.Operator):
     influences: bpy.props.IntProperty(  # type: ignore[valid-type]
         name="Influences", description="Largest number of bones per vertex. 0: all", default=0, min=0)
     mirror: bpy.props.BoolProperty(  # type: ignore[valid-type]
-        name="Mirror", default=False, description="Bones that are mirror images along x get mirrored weights")
+        name="Mirror", default=False,
+        description="Bones with symmetric names, such as arm.L and arm.R, get weights that are mirror images along x. Always on "
+                    "for meshes whose symmetry along x is on")
 
     @classmethod
     def poll(cls, context):
@@ -426,7 +498,7 @@ class OBJECT_OT_bindpose_weights(BindposeOperator, bpy.types.Operator):
         for index in range(len(things)):
             words = ["weights", f"{index}.off", "--handles", "bones.vtp", "-o", f"{index}.dmat"]
             words += ["--maximum-influences", str(self.influences)] if self.influences else []
-            commands.append(words + (["--mirror", "x"] if self.mirror else []))
+            commands.append(words)
 
         def write_inputs(job):
             write_bones(job.path("bones.vtp"), ends)
@@ -445,6 +517,9 @@ class OBJECT_OT_bindpose_weights(BindposeOperator, bpy.types.Operator):
                                   world_points(thing.data, thing.matrix_world))
             if len(weights) != len(thing.data.vertices):
                 raise BindposeError(f"the mesh '{name}' has changed; run the command again")
+            if self.mirror or thing.data.use_mirror_x:
+                weights = mirrored_mean(weights, self.bones, [vertex.co for vertex in thing.data.vertices])
+                weights = largest_weights(weights, self.influences)
             set_vertex_groups(thing, self.bones, weights)
             bind_armature(thing, armature)
 
@@ -467,7 +542,10 @@ class OBJECT_OT_bindpose_skeleton(BindposeOperator, bpy.types.Operator):
         self.mesh_name = thing.name
 
         def write_inputs(job):
-            write_off(job.path("shape.off"), *shape_of(thing, context))
+            points, polygons = shape_of(thing, context)
+            coordinates = [point[0] for point in points]
+            self.middle = (min(coordinates) + max(coordinates)) / 2
+            write_off(job.path("shape.off"), points, polygons)
 
         return self.start_job(
             context, [["handles", "shape.off", "--maximum-bones", str(self.maximum_bones), "-o", "bones.tgf"]], write_inputs)
@@ -476,7 +554,7 @@ class OBJECT_OT_bindpose_skeleton(BindposeOperator, bpy.types.Operator):
         points, bones = read_tgf(job.path("bones.tgf"))
         if not bones:
             raise BindposeError(f"the mesh '{self.mesh_name}' has no curve skeleton with bones")
-        make_armature(f"{self.mesh_name} skeleton", points, bones, context)
+        make_armature(f"{self.mesh_name} skeleton", points, bones, self.middle, context)
 
 
 class BindposePreferences(bpy.types.AddonPreferences):

@@ -51,6 +51,30 @@ def bar(sides=8, rings=24, length=6.0, radius=0.5):
     return points, faces
 
 
+def cross_of_boxes():
+    """Return two crossing boxes of small squares, along x and z. The lower end is longer."""
+    points, faces = [], []
+    for low, high in (((-3, -0.4, -0.4), (3, 0.4, 0.4)), ((-0.4, -0.4, -4), (0.4, 0.4, 2))):
+        counts = [max(2, round((b - a) / 0.4)) for a, b in zip(low, high)]
+        for axis in range(3):
+            u, v = (axis + 1) % 3, (axis + 2) % 3
+            for side in (0, 1):
+                first = len(points)
+                for i in range(counts[u] + 1):
+                    for j in range(counts[v] + 1):
+                        point = [0, 0, 0]
+                        point[axis] = (low, high)[side][axis]
+                        point[u] = low[u] + (high[u] - low[u]) * i / counts[u]
+                        point[v] = low[v] + (high[v] - low[v]) * j / counts[v]
+                        points.append(tuple(point))
+                for i in range(counts[u]):
+                    for j in range(counts[v]):
+                        a = first + i * (counts[v] + 1) + j
+                        face = (a, a + counts[v] + 1, a + counts[v] + 2, a + 1)
+                        faces.append(face if side else face[::-1])
+    return points, faces
+
+
 def add_armature():
     data = bpy.data.armatures.new("rig")
     armature = bpy.data.objects.new("rig", data)
@@ -118,7 +142,30 @@ def main():
     select(thing)
     found["skeleton"] = list(bpy.ops.object.bindpose_skeleton())
     skeleton = bpy.context.view_layer.objects.active
-    found["bones"] = [[list(bone.head_local), list(bone.tail_local)] for bone in skeleton.data.bones]
+    found["bones"] = [[list(skeleton.matrix_world @ end) for end in (bone.head_local, bone.tail_local)]
+                      for bone in skeleton.data.bones]
+    # A cross of two boxes: its arms are mirror images. Its mesh has the option for symmetry.
+    cross = add_mesh("cross", *cross_of_boxes())
+    cross.location = (20, 0, 0)
+    bpy.context.view_layer.update()
+    select(cross)
+    bpy.ops.object.bindpose_skeleton()
+    skeleton = bpy.context.view_layer.objects.active
+    found["named_bones"] = {bone.name: [list(bone.head_local), list(bone.tail_local)] for bone in skeleton.data.bones}
+    cross.data.use_mirror_x = True
+    select(cross, skeleton)
+    bpy.ops.object.bindpose_weights()
+    found["cross"] = [list(vertex.co) for vertex in cross.data.vertices]
+    found["cross_weights"] = weights_of(cross)
+    # A bone on one side without an opposite bone keeps its weights, on both sides.
+    left = next(bone.name for bone in skeleton.data.bones if bone.name.endswith(".L"))
+    skeleton.data.bones[left[:-1] + "R"].use_deform = False
+    found["alone"] = []
+    for is_symmetric in (False, True):
+        cross.data.use_mirror_x = is_symmetric
+        select(cross, skeleton)
+        bpy.ops.object.bindpose_weights()
+        found["alone"].append([row.get(left, 0) for row in weights_of(cross)])
     # Errors are one sentence.
     empty = add_mesh("empty", [(0, 0, 0)], [])
     select(empty, armature)

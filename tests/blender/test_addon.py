@@ -1,4 +1,4 @@
-"""The Blender add-on: weights in vertex groups, locked groups, modifiers, a skeleton, errors."""
+"""The Blender add-on: weights in vertex groups, locked groups, modifiers, a skeleton, errors, and the window."""
 
 import json
 import os
@@ -11,17 +11,22 @@ HERE = pathlib.Path(__file__).resolve().parent
 ADDON = HERE.parents[1] / "examples" / "blender" / "bindpose_addon.py"
 
 
+def run_blender(script, folder, *options):
+    """Run a script in Blender and return what it found."""
+    result = folder / "result.json"
+    environment = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
+    done = subprocess.run(
+        ["blender", *options, "--factory-startup", "--python-exit-code", "3", "--python", HERE / script, "--", ADDON,
+         os.environ["BINDPOSE_PROGRAM"], result],
+        capture_output=True, text=True, timeout=500, check=False, env={**environment, "TMPDIR": str(folder)})
+    assert done.returncode == 0 and result.exists(), done.stdout + done.stderr
+    return json.loads(result.read_text())
+
+
 @pytest.fixture(scope="module")
 def found(tmp_path_factory):
     """What Blender found; see addon_in_blender.py."""
-    result = tmp_path_factory.mktemp("blender") / "result.json"
-    done = subprocess.run(
-        ["blender", "-b", "--factory-startup", "--python-exit-code", "3", "--python", HERE / "addon_in_blender.py", "--",
-         ADDON, os.environ["BINDPOSE_PROGRAM"], result],
-        capture_output=True, text=True, timeout=500, check=False,
-        env={key: value for key, value in os.environ.items() if key != "PYTHONPATH"})
-    assert done.returncode == 0, done.stdout + done.stderr
-    return json.loads(result.read_text())
+    return run_blender("addon_in_blender.py", tmp_path_factory.mktemp("blender"), "-b")
 
 
 def test_every_vertex_has_weights_that_sum_to_one(found):
@@ -62,5 +67,38 @@ def test_a_skeleton_lies_in_the_shape(found):
             assert -0.01 <= x <= 6.01 and y * y + (z - 0.1) ** 2 <= 0.26
 
 
+def test_mirrored_bones_have_symmetric_names(found):
+    bones = {name: sorted(ends) for name, ends in found["named_bones"].items()}
+    left = [name for name in bones if name.endswith(".L")]
+    assert left and {f"{name[:-1]}R" for name in left} <= set(bones)
+    for name in left:
+        center = [(a + b) / 2 for a, b in zip(*bones[name])]
+        other = [(a + b) / 2 for a, b in zip(*bones[f"{name[:-1]}R"])]
+        assert center[0] > 0 and center == pytest.approx([-other[0], *other[1:]], abs=1e-5)
+
+
+def test_a_symmetric_mesh_gets_symmetric_weights(found):
+    rows = {tuple(round(value, 4) for value in point): weights
+            for point, weights in zip(found["cross"], found["cross_weights"])}
+    swapped = {name: name[:-1] + {"L": "R", "R": "L"}.get(name[-1], name[-1]) for name in found["named_bones"]}
+    for (x, y, z), weights in rows.items():
+        other = rows[-x, y, z]
+        for name, weight in weights.items():
+            assert other.get(swapped[name], 0) == pytest.approx(weight, abs=2e-4)
+
+
+def test_a_bone_without_an_opposite_bone_is_not_mirrored(found):
+    plain, mirrored = found["alone"]
+    assert max(plain) > 0.9 and mirrored == pytest.approx(plain, abs=2e-4)
+
+
 def test_errors_name_the_object(found):
     assert "the mesh 'empty' has no faces" in found["error"]
+
+
+def test_the_window_stays_usable_and_escape_cancels(tmp_path):
+    found = run_blender("addon_in_window.py", tmp_path, "--enable-event-simulate")
+    assert "error" not in found, found["error"]
+    assert found["before_enter"] == 0  # the dialog asks first
+    assert found["parent"] == "rig" and all(sum(row.values()) == pytest.approx(1, abs=1e-3) for row in found["weights"])
+    assert found["folder_is_gone"] and found["canceled"]

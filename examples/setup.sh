@@ -35,6 +35,8 @@ libcli11-dev:command_line_options
 libpng-dev:pictures
 libtiff-dev:pictures
 libassimp-dev:reads_FBX,_Collada,_3DS_and_3MF_files
+libdraco-dev:reads_glTF_files_that_are_compressed_by_Draco
+libmeshoptimizer-dev:reads_glTF_files_that_are_compressed_by_meshopt
 xvfb:rendering_without_a_display
 xauth:rendering_without_a_display
 libgl1-mesa-dri:rendering_without_a_graphics_card

@@ -22,8 +22,7 @@ vtkStandardNewMacro(vtkGLTFSkinReader);
 
 struct vtkGLTFSkinReader::Internals
 {
-  CachedFile<GltfData> file{ [](ExecutionContext&, const std::string& path, GltfData& data)
-    { return read_gltf(path, data); } };
+  CachedFile<GltfData> file{ &read_gltf };
 };
 
 vtkGLTFSkinReader::vtkGLTFSkinReader() : Internal(std::make_unique<Internals>())

@@ -29,7 +29,8 @@
  * downstream filters keep their bind. The file is read again if it has changed.
  *
  * Not read: other animations, materials, textures, morph targets, cameras, lights. One warning
- * lists the items of this list that the file contains. Compressed meshes are an error.
+ * lists the items of this list that the file contains. Meshes that are compressed by Draco or
+ * meshopt are decompressed by the program bindpose-importer.
  *
  * A missing, truncated or invalid file gives INVALID_INPUT with one sentence that names it. It
  * never causes a crash or a partial mesh.

@@ -94,10 +94,11 @@ Status read_vtp(const std::string& path, vtkPolyData* output)
   return status;
 }
 
-Status read_gltf_handles(const std::string& path, vtkPolyData* output)
+Status read_gltf_handles(
+  bindpose::ExecutionContext& context, const std::string& path, vtkPolyData* output)
 {
   bindpose::GltfData gltf;
-  Status status = bindpose::read_gltf(path, gltf);
+  Status status = bindpose::read_gltf(context, path, gltf);
   status.warnings.clear(); // omit these warnings, because they are about the mesh
   status.report = {};
   if (status.ok() && gltf.handle_list.empty())
@@ -140,7 +141,7 @@ bindpose::Status vtkHandleFileReader::Execute(
     const std::string format = bindpose::file_extension(path);
     status = format == "tgf" ? read_tgf(path, data)
       : format == "vtp"      ? read_vtp(path, data)
-                             : read_gltf_handles(path, data);
+                             : read_gltf_handles(context, path, data);
   }
   if (!status.ok())
   {

@@ -99,10 +99,11 @@ Status read_medit(const std::string& path, vtkDataObject* output)
   return status;
 }
 
-Status read_gltf_mesh(const std::string& path, vtkDataObject* output)
+Status read_gltf_mesh(
+  bindpose::ExecutionContext& context, const std::string& path, vtkDataObject* output)
 {
   bindpose::GltfData gltf;
-  Status status = bindpose::read_gltf(path, gltf);
+  Status status = bindpose::read_gltf(context, path, gltf);
   if (status.ok())
   {
     output->ShallowCopy(gltf.mesh);
@@ -302,7 +303,7 @@ bindpose::Status vtkMeshFileReader::Execute(
   }
   else if (format == "glb" || format == "gltf")
   {
-    status = read_gltf_mesh(path, data);
+    status = read_gltf_mesh(context, path, data);
   }
   else
   {

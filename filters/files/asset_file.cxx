@@ -2,7 +2,7 @@
 
 #include "file_kind.h"
 #include "gltf/gltf_model.h"
-#include "guarded_import.h"
+#include "helper/guarded_import.h"
 #include "io/obj.h"
 #include "io/ply.h"
 #include "io/text_scanner.h"
@@ -147,7 +147,7 @@ Status read_asset_file(ExecutionContext& context, const std::string& path, GltfA
   }
   if (is_listed(file_extension(path), "glb gltf"))
   {
-    return asset.read(path, png_converter(context));
+    return asset.read(context, path, png_converter(context));
   }
   AssetBytes converted;
   const Status conversion = read_asset_bytes(context, path, converted);

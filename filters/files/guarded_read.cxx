@@ -4,7 +4,7 @@
 
 #include "dataset_record.h"
 #include "file_kind.h"
-#include "helper_file.h"
+#include "helper/helper_file.h"
 #include "helper/helper_process.h"
 
 #include "vtkDataSet.h"

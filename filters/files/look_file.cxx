@@ -126,7 +126,7 @@ Status read_look_file(ExecutionContext& context, const std::string& path, FileLo
   };
   if (is_gltf)
   {
-    status = read_gltf_file(path, read);
+    status = read_gltf_file(context, path, read);
   }
   else
   {

@@ -317,11 +317,11 @@ vtkSmartPointer<vtkPolyData> JointHandles::posed_handles() const
   return data;
 }
 
-Status read_gltf(const std::string& path, GltfData& data)
+Status read_gltf(ExecutionContext& context, const std::string& path, GltfData& data)
 {
   data = GltfData();
   GltfSkin skin;
-  Status status = read_gltf_skin(path, skin);
+  Status status = read_gltf_skin(context, path, skin);
   if (!status.ok())
   {
     return status;

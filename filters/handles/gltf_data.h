@@ -60,7 +60,7 @@ struct GltfData
 };
 
 /// Read a file; see vtkGLTFSkinReader.
-Status read_gltf(const std::string& path, GltfData& data);
+Status read_gltf(ExecutionContext& context, const std::string& path, GltfData& data);
 
 } // namespace bindpose
 

@@ -2,7 +2,7 @@
 #include "motion_data.h"
 
 #include "file_kind.h"
-#include "guarded_import.h"
+#include "helper/guarded_import.h"
 #include "pose/handle_hierarchy.h"
 
 #include "vtkPolyData.h"
@@ -119,7 +119,7 @@ Status MotionFile::read_motion(
   motion = GltfMotion();
   if (is_gltf(path))
   {
-    return read_gltf_motion(path, motion);
+    return read_gltf_motion(context, path, motion);
   }
   std::string bytes;
   const Status status = import_guarded(context, path, bytes);

@@ -56,8 +56,7 @@ private:
     HandleMotion& motion) const;
   Status retarget(const std::string& path, const Handles& handles, HandleMotion& motion) const;
 
-  CachedFile<GltfData> rig_{ [](ExecutionContext&, const std::string& path, GltfData& data)
-    { return read_gltf(path, data); } };
+  CachedFile<GltfData> rig_{ &read_gltf };
   CachedFile<GltfMotion> motion_{ &read_motion };
 
   static Status read_motion(ExecutionContext& context, const std::string& path, GltfMotion& motion);

@@ -1,6 +1,7 @@
 #include "fuzz/rig_file_targets.h"
 
 #include "gltf_edit/gltf_asset.h"
+#include "gltf/gltf_file.h"
 #include "gltf/gltf_motion.h"
 #include "gltf/gltf_skin.h"
 #include "gltf/gltf_skin_parts.h"
@@ -130,8 +131,9 @@ void check_asset(std::string_view input)
 void check_motion(std::string_view input)
 {
   const MemoryFile file(input);
+  ExecutionContext context;
   GltfMotion motion;
-  const Status status = read_gltf_motion(file.path(), motion);
+  const Status status = read_gltf_motion(context, file.path(), motion);
   if (!status.ok())
   {
     expect_refused(status);
@@ -205,8 +207,9 @@ bool check_gltf(std::string_view input)
   check_motion(input);
   check_look(input);
   const MemoryFile file(input);
+  ExecutionContext context;
   GltfSkin skin;
-  const Status status = read_gltf_skin(file.path(), skin);
+  const Status status = read_gltf_skin(context, file.path(), skin);
   if (!status.ok())
   {
     expect_refused(status);

@@ -5,15 +5,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdint>
 #include <filesystem>
 #include <system_error>
 
 namespace bindpose
 {
 
-namespace
-{
-/// Replace %XX by the byte with this hexadecimal number.
 std::string decode_uri(const std::string& uri)
 {
   std::string path;
@@ -27,13 +25,11 @@ std::string decode_uri(const std::string& uri)
   }
   return path;
 }
-} // namespace
 
 std::string picture_format(std::string_view bytes, const std::string& name)
 {
   using namespace std::string_view_literals;
-  constexpr std::size_t longest_signature = 12;
-  if (bytes.size() < longest_signature)
+  if (bytes.size() < longest_picture_signature)
   {
     return "";
   }
@@ -60,6 +56,27 @@ std::string picture_format(std::string_view bytes, const std::string& name)
 bool is_data_uri(const std::string& uri)
 {
   return uri.compare(0, 5, "data:") == 0;
+}
+
+std::string to_data_uri(std::string_view bytes)
+{
+  constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text = "data:application/octet-stream;base64,";
+  text.reserve(text.size() + (bytes.size() + 2) / 3 * 4);
+  for (std::size_t k = 0; k < bytes.size(); k += 3)
+  {
+    std::uint32_t group = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const bool exists = k + i < bytes.size();
+      group = group << 8 | (exists ? static_cast<unsigned char>(bytes[k + i]) : 0U);
+    }
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      text += k + i > bytes.size() ? '=' : digits[group >> (18 - 6 * i) & 63];
+    }
+  }
+  return text;
 }
 
 bool is_convertible(const std::string& format)

@@ -6,12 +6,16 @@
 #include "base/status.h"
 #include "gltf/tiny_gltf.h"
 
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <string_view>
 
 namespace bindpose
 {
+
+/// Number of bytes that picture_format() needs.
+constexpr std::size_t longest_picture_signature = 12;
 
 /// Return the format of a picture, as a file name extension: png, jpg, webp, ktx2, dds, bmp, tif or
 /// tga; empty: unknown. TGA files have no signature, so they are recognized by their names.
@@ -22,8 +26,14 @@ bool is_convertible(const std::string& format);
 /// Converts a picture to PNG; see is_convertible(). Returns false if it cannot be read.
 using ConvertPicture = std::function<bool(const std::string& format, std::string& bytes)>;
 
+/// Return the relative path that a URI names: each %XX is replaced by the byte with this
+/// hexadecimal number.
+std::string decode_uri(const std::string& uri);
+
 /// Report whether a URI contains its data.
 bool is_data_uri(const std::string& uri);
+/// Return a URI that contains bytes as base64.
+std::string to_data_uri(std::string_view bytes);
 
 /// Read the picture file that a URI names, relative to a folder. Throw GltfError for a file outside
 /// of the folder. Return invalid_input if the file cannot be read.

@@ -202,47 +202,17 @@ tinygltf::Model parse_gltf(const std::string& content, GltfBufferFiles& files)
   }
   for (const std::string& extension : model.extensionsRequired)
   {
-    // Accept extensions for materials and textures. All other extensions can change the geometry of
-    // a mesh or a node.
-    if (extension.compare(0, 14, "KHR_materials_") != 0 &&
-      extension.compare(0, 12, "KHR_texture_") != 0)
+    // Accept extensions for materials, textures and lights, and other number types of attributes.
+    // All other extensions can change the geometry of a mesh or a node.
+    const auto begins_with = [&](const char* name) { return extension.rfind(name, 0) == 0; };
+    if (!begins_with("KHR_materials_") && !begins_with("KHR_texture_") &&
+      !begins_with("EXT_texture_") && !begins_with("KHR_lights_") &&
+      extension != "KHR_mesh_quantization")
     {
       throw GltfError("the required extension " + extension.substr(0, 100) + " is not supported");
     }
   }
   return model;
-}
-
-Status read_gltf_file(
-  const std::string& path, const std::function<void(const GltfContent&, Status&)>& use)
-{
-  std::string bytes;
-  const Status status = read_file(path, bytes);
-  return status.ok() ? read_gltf_bytes(path, std::move(bytes), use) : status;
-}
-
-Status read_gltf_bytes(const std::string& path, std::string bytes,
-  const std::function<void(const GltfContent&, Status&)>& use)
-{
-  Status status;
-  try
-  {
-    GltfContent content;
-    content.bytes = std::move(bytes);
-    const std::string folder = std::filesystem::path(path).parent_path().string();
-    content.files.folder = folder.empty() ? "." : folder;
-    content.model = parse_gltf(content.bytes, content.files);
-    use(content, status);
-  }
-  catch (const GltfError& failure)
-  {
-    status = Status::invalid_input(path + ": " + failure.sentence);
-  }
-  catch (const std::bad_alloc&)
-  {
-    status = Status::invalid_input(path + ": the file needs more memory than is available");
-  }
-  return status;
 }
 
 GltfAccessors::GltfAccessors(const tinygltf::Model& model, std::size_t file_size) : model_(model)

@@ -13,7 +13,6 @@
 #include <array>
 #include <cstddef>
 #include <exception>
-#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,25 +44,6 @@ bool is_in_folder(const std::string& path, const std::string& folder);
 /// bytes; other images are not read. Throw GltfError for a file that is not valid, another version
 /// than 2.0, and required extensions that could change the geometry.
 tinygltf::Model parse_gltf(const std::string& content, GltfBufferFiles& files);
-
-/// A glTF file that was read and parsed.
-struct GltfContent
-{
-  std::string bytes; ///< the file
-  GltfBufferFiles files;
-  tinygltf::Model model;
-};
-
-/// Read and parse a file, and call use(content, status), which may add warnings and a report to the
-/// status. Return invalid_input, with the path in the message, if the file cannot be read, or if
-/// parse_gltf() or use() throws GltfError or std::bad_alloc.
-Status read_gltf_file(
-  const std::string& path, const std::function<void(const GltfContent&, Status&)>& use);
-
-/// Parse the bytes of a file, which may be made from a file of another format, and call
-/// use(content, status). See read_gltf_file().
-Status read_gltf_bytes(const std::string& path, std::string bytes,
-  const std::function<void(const GltfContent&, Status&)>& use);
 
 /// Return an element of a list. Throw GltfError if there is no such element.
 template <typename Element>

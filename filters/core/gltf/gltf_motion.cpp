@@ -2,7 +2,7 @@
 #include "gltf/gltf_motion.h"
 
 #include "gltf/gltf_frames.h"
-#include "gltf/gltf_model.h"
+#include "gltf/gltf_file.h"
 #include "gltf/gltf_skin_reader.h"
 
 #include <optional>
@@ -58,10 +58,10 @@ void read_motion(const GltfContent& content, GltfMotion& motion, Status& status)
 }
 } // namespace
 
-Status read_gltf_motion(const std::string& path, GltfMotion& motion)
+Status read_gltf_motion(ExecutionContext& context, const std::string& path, GltfMotion& motion)
 {
   motion = GltfMotion();
-  return read_gltf_file(path,
+  return read_gltf_file(context, path,
     [&](const GltfContent& content, Status& status) { read_motion(content, motion, status); });
 }
 

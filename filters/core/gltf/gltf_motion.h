@@ -28,8 +28,9 @@ struct GltfMotion
 /// hide things, are left out.
 ///
 /// Report: counts.joints, counts.frames, counts.animations. Return invalid_input for the defects of
-/// nodes and animations that read_gltf_skin() names, and if no node is left.
-Status read_gltf_motion(const std::string& path, GltfMotion& motion);
+/// nodes and animations that read_gltf_skin() names, and if no node is left. See read_gltf_file()
+/// for compressed files.
+Status read_gltf_motion(ExecutionContext& context, const std::string& path, GltfMotion& motion);
 /// Read the bytes of a glTF file that was made from the file `path`.
 Status read_gltf_motion(const std::string& path, std::string bytes, GltfMotion& motion);
 

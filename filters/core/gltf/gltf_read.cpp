@@ -2,8 +2,8 @@
 #include "gltf/gltf_skin.h"
 
 #include "base/memory.h"
+#include "gltf/gltf_file.h"
 #include "gltf/gltf_frames.h"
-#include "gltf/gltf_model.h"
 #include "gltf/gltf_skin_parts.h"
 #include "gltf/gltf_skin_reader.h"
 #include "io/text_scanner.h"
@@ -327,10 +327,10 @@ void read_model(const std::string& path, const tinygltf::Model& model, std::size
 }
 } // namespace
 
-Status read_gltf_skin(const std::string& path, GltfSkin& skin)
+Status read_gltf_skin(ExecutionContext& context, const std::string& path, GltfSkin& skin)
 {
   skin = GltfSkin();
-  const Status status = read_gltf_file(path,
+  const Status status = read_gltf_file(context, path,
     [&](const GltfContent& content, Status& found)
     {
       read_model(path, content.model, content.bytes.size(), skin, found);

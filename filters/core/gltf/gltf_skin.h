@@ -149,9 +149,9 @@ constexpr const char* not_kept_phrase = "Bindpose does not keep";
 ///
 /// Return invalid_input, with one sentence that contains the file name, for every defect: invalid
 /// JSON, a glTF version other than 2.0, buffers and accessors that do not match, coordinates and
-/// matrices that are not finite, joints out of range, cyclic nodes, required extensions (compressed
-/// meshes).
-Status read_gltf_skin(const std::string& path, GltfSkin& skin);
+/// matrices that are not finite, joints out of range, cyclic nodes, unknown required extensions.
+/// See read_gltf_file() for compressed files.
+Status read_gltf_skin(ExecutionContext& context, const std::string& path, GltfSkin& skin);
 
 } // namespace bindpose
 

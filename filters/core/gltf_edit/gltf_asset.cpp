@@ -3,10 +3,8 @@
 #include "geometry/simplex_locator.h"
 #include "gltf_edit/gltf_animation.h"
 #include "gltf_edit/gltf_joints.h"
-#include "gltf/gltf_model.h"
 #include "gltf_edit/gltf_pose_error.h"
 #include "gltf_edit/gltf_weights.h"
-#include "io/text_scanner.h"
 
 #include <algorithm>
 #include <iterator>
@@ -104,28 +102,32 @@ void remove_unused_skins(GltfDocument& document)
 }
 } // namespace
 
-Status GltfAsset::read(const std::string& path, ConvertPicture convert)
+Status GltfAsset::read(ExecutionContext& context, const std::string& path, ConvertPicture convert)
 {
-  std::string bytes;
-  const Status status = read_file(path, bytes);
-  if (!status.ok())
-  {
-    *this = GltfAsset();
-    return status;
-  }
-  return this->read_bytes(path, std::move(bytes), std::move(convert));
+  *this = GltfAsset();
+  return this->finish_reading(path,
+    read_gltf_file(context, path,
+      [&](const GltfContent& content, Status& status) { this->load(content, convert, status); }));
 }
 
 Status GltfAsset::read_bytes(const std::string& path, std::string bytes, ConvertPicture convert)
 {
   *this = GltfAsset();
-  const Status status = read_gltf_bytes(path, std::move(bytes),
-    [&](const GltfContent& content, Status& found)
-    {
-      this->document_ = GltfDocument(
-        content.bytes, content.model, content.files.folder, found.warnings, std::move(convert));
-      this->meshes_ = read_gltf_scene(content.model, content.bytes.size(), found);
-    });
+  this->is_converted_ = true;
+  return this->finish_reading(path,
+    read_gltf_bytes(path, std::move(bytes),
+      [&](const GltfContent& content, Status& status) { this->load(content, convert, status); }));
+}
+
+void GltfAsset::load(const GltfContent& content, const ConvertPicture& convert, Status& status)
+{
+  this->document_ =
+    GltfDocument(content.bytes, content.model, content.files.folder, status.warnings, convert);
+  this->meshes_ = read_gltf_scene(content.model, content.bytes.size(), status);
+}
+
+Status GltfAsset::finish_reading(const std::string& path, Status status)
+{
   if (!status.ok())
   {
     *this = GltfAsset();
@@ -272,6 +274,12 @@ GltfJointNodes GltfAsset::add_skeleton(
     json_nodes[parent]["children"].push_back(nodes.root);
     return nodes;
   }
+  this->add_to_scene(nodes.root);
+  return nodes;
+}
+
+void GltfAsset::add_to_scene(int node)
+{
   if (this->document_.list("scenes").empty())
   {
     Json roots = Json::array();
@@ -284,8 +292,7 @@ GltfJointNodes GltfAsset::add_skeleton(
     }
     this->document_.json()["scene"] = this->document_.append("scenes", { { "nodes", roots } });
   }
-  this->document_.list("scenes")[this->meshes_.scene]["nodes"].push_back(nodes.root);
-  return nodes;
+  this->document_.list("scenes")[this->meshes_.scene]["nodes"].push_back(node);
 }
 
 Status GltfAsset::check(const GltfSkin& skin, Index maximum_influences) const
@@ -380,6 +387,47 @@ Status GltfAsset::replace_skins(ExecutionContext& context, GltfSkin& skin, Index
   return status;
 }
 
+/// A skin moves a mesh without the transforms of its node and of the node's ancestors. glTF
+/// therefore recommends that the node has neither; some programs expect it.
+int GltfAsset::move_mesh_to_root(int id)
+{
+  const Json old = this->document_.list("nodes")[id];
+  const std::vector<int>& joints = this->meshes_.skin_joints.nodes;
+  const bool has_other_uses = old.contains("children") || old.contains("camera") ||
+    old.contains("extensions") || old.contains("extras") || this->meshes_.animated[id] ||
+    std::find(joints.begin(), joints.end(), id) != joints.end();
+  if (!has_other_uses)
+  {
+    Json& nodes = this->document_.list("nodes");
+    for (const char* property : { "matrix", "translation", "rotation", "scale" })
+    {
+      nodes[id].erase(property);
+    }
+    const int parent = this->meshes_.parents[id];
+    if (parent >= 0)
+    {
+      Json& children = nodes[parent]["children"];
+      children.erase(std::remove(children.begin(), children.end(), Json(id)), children.end());
+      if (children.empty())
+      {
+        nodes[parent].erase("children");
+      }
+      this->add_to_scene(id);
+    }
+    return id;
+  }
+  Json node{ { "mesh", old["mesh"] } };
+  if (old.contains("name"))
+  {
+    node["name"] = old["name"];
+  }
+  this->document_.list("nodes")[id].erase("mesh");
+  this->document_.list("nodes")[id].erase("skin");
+  const int root = this->document_.append("nodes", std::move(node));
+  this->add_to_scene(root);
+  return root;
+}
+
 /// Append one skin per transform from a mesh to the scene, and give the weights to the primitives.
 void GltfAsset::attach_skin(
   const std::vector<GltfJoint>& joints, const GltfWeights& packed, const GltfJointNodes& nodes)
@@ -387,7 +435,7 @@ void GltfAsset::attach_skin(
   std::map<std::vector<double>, int> skins; // by the transform from the mesh to the scene
   std::map<Index, Json> attributes_of_vertices; // by the first vertex
   std::set<int> edited_meshes;
-  int last_node = -1;
+  int last_node = -1, mesh_node = -1;
   for (const GltfPart& part : this->meshes_.parts)
   {
     if (part.node != last_node)
@@ -400,7 +448,8 @@ void GltfAsset::attach_skin(
         skin->second =
           append_skin(this->document_, joints, nodes, this->meshes_.mesh_to_scene[part.node]);
       }
-      Json& node = this->document_.list("nodes")[part.node];
+      mesh_node = this->is_converted_ ? this->move_mesh_to_root(part.node) : part.node;
+      Json& node = this->document_.list("nodes")[mesh_node];
       node["skin"] = skin->second;
       const int mesh = node["mesh"].get<int>();
       if (!edited_meshes.insert(mesh).second)
@@ -416,7 +465,7 @@ void GltfAsset::attach_skin(
     {
       append_weights(this->document_, packed, part.first, part.first + part.count, stored->second);
     }
-    const auto mesh = this->document_.list("nodes")[part.node]["mesh"].get<std::size_t>();
+    const auto mesh = this->document_.list("nodes")[mesh_node]["mesh"].get<std::size_t>();
     Json& attributes =
       this->document_.list("meshes")[mesh]["primitives"][part.primitive]["attributes"];
     erase_weights(attributes);

@@ -7,6 +7,7 @@
 #include "geometry/mesh.h"
 #include "gltf_edit/gltf_document.h"
 #include "gltf_edit/gltf_joints.h"
+#include "gltf/gltf_file.h"
 #include "gltf/gltf_scene_meshes.h"
 #include "gltf/gltf_skin.h"
 #include "gltf_edit/gltf_weights.h"
@@ -26,11 +27,14 @@ class GltfAsset
 public:
   /// Read a .gltf or .glb file. A mesh with a skin has the position of its bind pose.
   ///
+  /// Compressed meshes are decompressed; see read_gltf_file().
+  ///
   /// Report: see read_gltf_scene(). Return invalid_input for the defects that read_gltf_skin()
   /// names, and if the default scene has no triangles.
   /// @param convert converts pictures in formats that glTF does not allow; null: they are left out
-  Status read(const std::string& path, ConvertPicture convert = nullptr);
-  /// Read the bytes of a glTF file that was made from the file `path`.
+  Status read(ExecutionContext& context, const std::string& path, ConvertPicture convert = nullptr);
+  /// Read the bytes of a glTF file that was made from the file `path`. Its nodes need not be kept,
+  /// so set_skin() moves meshes to root nodes.
   Status read_bytes(const std::string& path, std::string bytes, ConvertPicture convert = nullptr);
 
   /// #V x 3, in scene coordinates. The vertices of a mesh occur once for each node with the mesh.
@@ -76,6 +80,10 @@ public:
   Status write(const std::string& path, bool binary) const;
 
 private:
+  /// Set the document and the meshes to those of a file.
+  void load(const GltfContent& content, const ConvertPicture& convert, Status& status);
+  /// Set the path. If the status is an error, remove the document and the meshes.
+  Status finish_reading(const std::string& path, Status status);
   Status check(const GltfSkin& skin, Index maximum_influences) const;
   Status replace_skins(ExecutionContext& context, GltfSkin& skin, Index maximum_influences);
   /// Return the index into joints() of each joint of a skin. Return nothing if a joint is not among
@@ -87,14 +95,20 @@ private:
   /// triangles.
   GltfJointNodes add_skeleton(const std::vector<GltfJoint>& joints,
     const std::vector<Trs>& local_transforms, bool rest_joint);
+  /// Add a root node to the default scene. If the file has no scene, create one with all root
+  /// nodes.
+  void add_to_scene(int node);
   /// Return the nearest animated node that moves all meshes, or -1.
   int common_mover() const;
   /// Add a warning and an entry of losses[] for each motion that the meshes lose.
   void report_losses(bool keeps_joints, Status& status) const;
+  /// Move the mesh of a node to a root node without a transform, and return this node.
+  int move_mesh_to_root(int id);
   void attach_skin(
     const std::vector<GltfJoint>& joints, const GltfWeights& packed, const GltfJointNodes& nodes);
 
   std::string path_; ///< the file, for messages
+  bool is_converted_ = false; ///< whether the file was made from a file of another format
   GltfDocument document_;
   GltfSceneMeshes meshes_;
 };

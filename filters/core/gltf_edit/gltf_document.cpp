@@ -1,11 +1,12 @@
 #include "gltf_edit/gltf_document.h"
 
+#include "gltf/gltf_chunks.h"
+#include "gltf/gltf_compression.h"
 #include "gltf/gltf_images.h"
 #include "gltf/gltf_model.h"
 #include "io/text_scanner.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <string_view>
 
 namespace bindpose
@@ -14,70 +15,6 @@ namespace bindpose
 namespace
 {
 using Json = GltfDocument::Json;
-
-constexpr std::size_t header_size = 12; // bytes before the first chunk of a .glb file
-constexpr std::size_t chunk_header_size = 8;
-constexpr std::uint32_t json_chunk = 0x4e4f534a;
-constexpr std::uint32_t buffer_chunk = 0x004e4942;
-
-std::uint32_t number_at(std::string_view bytes, std::size_t at)
-{
-  std::uint32_t number = 0;
-  std::memcpy(&number, bytes.data() + at, sizeof(number));
-  return number;
-}
-
-void append_word(std::string& bytes, std::size_t number)
-{
-  const auto value = static_cast<std::uint32_t>(number);
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
-}
-
-void append_chunk(std::string& bytes, std::uint32_t type, std::string_view chunk, char padding)
-{
-  const std::size_t padded = (chunk.size() + 3) / 4 * 4;
-  append_word(bytes, padded);
-  append_word(bytes, type);
-  bytes.append(chunk).append(padded - chunk.size(), padding);
-}
-
-/// The chunks of a .glb file. The buffer's chunk is not needed, because tinygltf has read it.
-struct Chunks
-{
-  std::string_view text;
-  std::string_view further; ///< whole chunks, with their headers
-};
-
-Chunks split(const std::string& content)
-{
-  const std::string_view bytes(content);
-  if (bytes.substr(0, 4) != "glTF")
-  {
-    return { bytes, {} };
-  }
-  Chunks chunks;
-  std::size_t at = header_size;
-  for (int k = 0; at + chunk_header_size <= bytes.size(); ++k)
-  {
-    const std::size_t size = number_at(bytes, at);
-    const std::uint32_t type = number_at(bytes, at + 4);
-    if (size > bytes.size() - at - chunk_header_size)
-    {
-      throw GltfError("chunk " + std::to_string(k) + " extends beyond the end of the file");
-    }
-    if (k == 0)
-    {
-      chunks.text = bytes.substr(at + chunk_header_size, size);
-    }
-    else if (k > 1 || type != buffer_chunk)
-    {
-      chunks.further = bytes.substr(at);
-      break;
-    }
-    at += chunk_header_size + size;
-  }
-  return chunks;
-}
 
 /// Return the MIME type of a picture; empty for a format that glTF does not allow.
 std::string mime_type(const std::string& format)
@@ -105,27 +42,6 @@ const char* type_name(int components)
       return "MAT4";
   }
 }
-
-std::string base64(std::string_view bytes)
-{
-  constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t k = 0; k < bytes.size(); k += 3)
-  {
-    std::uint32_t group = 0;
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      const bool exists = k + i < bytes.size();
-      group = group << 8 | (exists ? static_cast<unsigned char>(bytes[k + i]) : 0U);
-    }
-    for (std::size_t i = 0; i < 4; ++i)
-    {
-      text += k + i > bytes.size() ? '=' : digits[group >> (18 - 6 * i) & 63];
-    }
-  }
-  return text;
-}
 } // namespace
 
 GltfDocument::GltfDocument(ConvertPicture convert) : convert_(std::move(convert))
@@ -137,15 +53,16 @@ GltfDocument::GltfDocument(const std::string& content, const tinygltf::Model& mo
   const std::string& folder, std::vector<std::string>& warnings, ConvertPicture convert)
   : convert_(std::move(convert))
 {
-  const Chunks chunks = split(content);
+  const GltfChunks chunks = split_gltf(content);
   this->json_ = Json::parse(chunks.text, nullptr, false);
   if (!this->json_.is_object())
   {
     throw GltfError("the JSON text is not valid");
   }
   this->further_chunks_ = chunks.further;
+  remove_compression(this->json_);
   this->join_buffers(model);
-  this->embed_images(folder, warnings);
+  this->embed_images(model, folder, warnings);
 }
 
 /// Append the data of all buffers to one buffer, and change the references of the buffer views. The
@@ -160,7 +77,7 @@ void GltfDocument::join_buffers(const tinygltf::Model& model)
     begins.push_back(this->buffer_.size());
     this->buffer_.append(reinterpret_cast<const char*>(buffer.data.data()), buffer.data.size());
   }
-  // Extensions that compress a view, such as EXT_meshopt_compression, also refer to a buffer.
+  // An extension of a view that Bindpose does not know may also refer to a buffer.
   const auto redirect = [&begins](Json& view)
   {
     if (!view.is_object() || !view.contains("buffer") || !view["buffer"].is_number_unsigned())
@@ -193,31 +110,34 @@ void GltfDocument::join_buffers(const tinygltf::Model& model)
   buffers.erase(buffers.begin() + 1, buffers.end());
 }
 
-/// Store external images in the buffer.
-void GltfDocument::embed_images(const std::string& folder, std::vector<std::string>& warnings)
+/// Store images in the buffer that are external, or that need to be converted.
+void GltfDocument::embed_images(
+  const tinygltf::Model& model, const std::string& folder, std::vector<std::string>& warnings)
 {
-  if (!this->json_.contains("images"))
+  std::vector<std::size_t> damaged;
+  for (std::size_t k = 0; k < model.images.size(); ++k)
   {
-    return;
-  }
-  for (std::size_t k = 0; k < this->json_["images"].size(); ++k)
-  {
-    const Json& old = this->json_["images"][k];
-    if (!old.is_object() || !old.contains("uri") || !old["uri"].is_string())
+    const tinygltf::Image& old = model.images[k];
+    const bool has_data = !old.image.empty(); // parse_gltf() decoded a data URI
+    const std::string& name = has_data ? old.name : old.uri;
+    std::string bytes(old.image.begin(), old.image.end());
+    if (has_data ? !is_convertible(picture_format(bytes, name))
+                 : old.uri.empty() || is_data_uri(old.uri))
     {
       continue;
     }
-    const auto uri = old["uri"].get<std::string>();
-    if (is_data_uri(uri))
+    const Status status = has_data ? Status() : read_picture_bytes(name, folder, bytes);
+    const std::string type = this->use_format(bytes, name);
+    if (has_data && type.empty())
     {
+      warnings.push_back(
+        "the image '" + sanitize_line(name) + "' is left out because it is damaged");
+      damaged.push_back(k);
       continue;
     }
-    std::string bytes;
-    const Status status = read_picture_bytes(uri, folder, bytes);
-    const std::string type = this->use_format(bytes, uri);
     if (!status.ok() || type.empty())
     {
-      warnings.push_back("the image '" + sanitize_line(uri) +
+      warnings.push_back("the image '" + sanitize_line(name) +
         "' is not stored in the file because " +
         (status.ok() ? "it is damaged, or has a format that glTF does not allow" : status.message));
       continue;
@@ -227,6 +147,50 @@ void GltfDocument::embed_images(const std::string& folder, std::vector<std::stri
     image.erase("uri");
     image["bufferView"] = view;
     image["mimeType"] = type;
+  }
+  this->remove_images(damaged);
+}
+
+/// Remove images, whose ids are sorted, and the references of textures to them.
+void GltfDocument::remove_images(const std::vector<std::size_t>& ids)
+{
+  if (ids.empty())
+  {
+    return;
+  }
+  const auto update = [&](Json& owner)
+  {
+    if (!owner.is_object() || !owner.contains("source") || !owner["source"].is_number_unsigned())
+    {
+      return;
+    }
+    const auto source = owner["source"].get<std::size_t>();
+    const auto next = std::lower_bound(ids.begin(), ids.end(), source);
+    if (next != ids.end() && *next == source)
+    {
+      owner.erase("source");
+    }
+    else
+    {
+      owner["source"] = source - static_cast<std::size_t>(next - ids.begin());
+    }
+  };
+  for (Json& texture : this->list("textures"))
+  {
+    update(texture);
+    if (texture.is_object() && texture.contains("extensions"))
+    {
+      for (Json& extension : texture["extensions"])
+      {
+        update(extension);
+      }
+    }
+  }
+  Json& images = this->list("images");
+  std::for_each(ids.rbegin(), ids.rend(), [&](std::size_t id) { images.erase(id); });
+  if (images.empty())
+  {
+    this->json_.erase("images");
   }
 }
 
@@ -306,7 +270,7 @@ Status GltfDocument::to_bytes(bool binary, std::string& content) const
     buffer["byteLength"] = this->buffer_.size();
     if (!binary)
     {
-      buffer["uri"] = "data:application/octet-stream;base64," + base64(this->buffer_);
+      buffer["uri"] = to_data_uri(this->buffer_);
     }
   }
   std::string text;
@@ -320,24 +284,14 @@ Status GltfDocument::to_bytes(bool binary, std::string& content) const
   }
   if (binary)
   {
-    const std::size_t size = header_size + 2 * chunk_header_size + text.size() +
-      this->buffer_.size() + this->further_chunks_.size();
+    // The three headers have at most 28 bytes.
+    const std::size_t size = text.size() + this->buffer_.size() + this->further_chunks_.size() + 28;
     if (size > largest_file)
     {
       return Status::invalid_input("a .glb file can have at most 4 GB, but this file would have " +
         std::to_string(size) + " bytes");
     }
-    content = "glTF";
-    append_word(content, 2);
-    append_word(content, 0); // the size of the file, see below
-    append_chunk(content, json_chunk, text, ' ');
-    if (!this->buffer_.empty())
-    {
-      append_chunk(content, buffer_chunk, this->buffer_, '\0');
-    }
-    content += this->further_chunks_;
-    const auto written = static_cast<std::uint32_t>(content.size());
-    std::memcpy(content.data() + 8, &written, sizeof(written));
+    content = join_glb({ text, this->buffer_, this->further_chunks_ });
   }
   else
   {

@@ -90,7 +90,9 @@ private:
   int append_accessor(
     const void* values, std::size_t size, std::size_t count, int components, int type, int target);
   void join_buffers(const tinygltf::Model& model);
-  void embed_images(const std::string& folder, std::vector<std::string>& warnings);
+  void embed_images(
+    const tinygltf::Model& model, const std::string& folder, std::vector<std::string>& warnings);
+  void remove_images(const std::vector<std::size_t>& ids);
   std::string use_format(std::string& bytes, const std::string& name) const;
 
   Json json_;

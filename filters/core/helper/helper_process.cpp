@@ -24,7 +24,7 @@ std::string folder_of(const std::string& path)
 class HelperOutput
 {
 public:
-  void parse_line(ExecutionContext& context, const std::string& line, Report& report)
+  void parse_line(ExecutionContext& context, const std::string& line, HelperRun& run)
   {
     std::istringstream words(line);
     std::string kind, key;
@@ -36,11 +36,15 @@ public:
     }
     else if (kind == "report" && words >> key >> number)
     {
-      report.set(key, Report::Value(number));
+      run.report.set(key, Report::Value(number));
+    }
+    else if (kind == "warning")
+    {
+      run.warnings.push_back(rest_of(line, kind));
     }
     else if (kind == "error")
     {
-      this->error_ = line.size() > 6 ? line.substr(6) : std::string();
+      this->error_ = rest_of(line, kind);
     }
     else if (!line.empty())
     {
@@ -53,6 +57,12 @@ public:
   std::string library_output() const { return this->library_output_; }
 
 private:
+  /// Return the text after the first word and a blank.
+  static std::string rest_of(const std::string& line, const std::string& word)
+  {
+    return line.size() > word.size() + 1 ? line.substr(word.size() + 1) : std::string();
+  }
+
   std::string error_;
   std::string library_output_;
 };
@@ -170,8 +180,7 @@ Status run_helper(ExecutionContext& context, const Helper& helper, const HelperR
   HelperOutput lines;
   ChildEnd end;
   Status status = run_child(
-    context, child, [&](const std::string& line) { lines.parse_line(context, line, run.report); },
-    end);
+    context, child, [&](const std::string& line) { lines.parse_line(context, line, run); }, end);
   run.seconds = end.seconds;
   run.timed_out = end.timed_out;
   return status.ok() ? check_end(end, lines, request) : status;

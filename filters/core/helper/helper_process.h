@@ -35,6 +35,7 @@ struct HelperRequest
 struct HelperRun
 {
   Report report; ///< values that the helper reported, with the helper's keys
+  std::vector<std::string> warnings;
   double seconds = 0.0;
   bool timed_out = false; ///< whether the helper was stopped at one of its time limits
 };
@@ -53,10 +54,9 @@ int anonymous_file(const char* name);
 
 /// Run a helper and wait for its end. The helper writes its result to standard output, which is the
 /// file descriptor `output`. On standard error, the helper prints lines of these forms: "progress
-/// FRACTION", "report KEY NUMBER", "error TEXT". The fraction becomes the progress of the current
-/// phase. Any other line is output of a library. If the helper crashes, or fails without an "error"
-/// line, the last of these other lines becomes part of the error message.
-/// Return
+/// FRACTION", "report KEY NUMBER", "warning TEXT", "error TEXT". The fraction becomes the progress
+/// of the current phase. Any other line is output of a library. If the helper crashes, or fails
+/// without an "error" line, the last of these other lines becomes part of the error message. Return
 /// - unavailable: the helper is not found;
 /// - canceled: the context was canceled (the helper is killed within 20 ms);
 /// - internal_error: the helper crashed, ended with an error, or ran out of time or memory; the

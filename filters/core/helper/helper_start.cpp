@@ -67,6 +67,11 @@ double helper_number(const HelperOptions& options, const std::string& name, doub
   return entry == options.end() ? fallback : std::atof(entry->second.c_str());
 }
 
+void helper_warn(const std::string& text)
+{
+  std::fprintf(stderr, "warning %s\n", text.c_str());
+}
+
 void helper_fail(const std::string& reason)
 {
   std::fprintf(stderr, "error %s\n", reason.c_str());

@@ -19,6 +19,9 @@ HelperOptions helper_options(int argc, char* argv[], int skipped);
 /// Return an option as a number, or the fallback if it is absent.
 double helper_number(const HelperOptions& options, const std::string& name, double fallback);
 
+/// Print a warning of this helper, in one line.
+void helper_warn(const std::string& text);
+
 /// Print the reason as the error of this helper, and end the process with code 1.
 [[noreturn]] void helper_fail(const std::string& reason);
 

@@ -303,15 +303,17 @@ private:
       {
         continue;
       }
-      const std::string& uri = this->model_.images[k].uri;
+      const tinygltf::Image& image = this->model_.images[k];
+      const std::string& name = image.uri.empty() ? image.name : image.uri;
       auto& [bytes, format] = this->look_.images[k];
       const Status status =
         read_gltf_image(this->model_, static_cast<int>(k), this->content_.files.folder, bytes);
-      format = picture_format(bytes, uri);
+      format = picture_format(bytes, name);
       if (!status.ok() || (format != "png" && format != "jpg" && !is_convertible(format)))
       {
         this->warnings_.push_back("the picture " +
-          (uri.empty() || is_data_uri(uri) ? std::to_string(k) : "'" + sanitize_line(uri) + "'") +
+          (name.empty() || is_data_uri(name) ? std::to_string(k)
+                                             : "'" + sanitize_line(name) + "'") +
           " is not drawn because " +
           (status.ok() ? "it is not PNG, JPEG, BMP, TIFF or TGA" : status.message));
         bytes.clear();

@@ -3,7 +3,7 @@
 
 // The look of the meshes in a glTF file.
 
-#include "gltf/gltf_model.h"
+#include "gltf/gltf_file.h"
 #include "gltf/gltf_skin.h"
 #include "look/surface_look.h"
 

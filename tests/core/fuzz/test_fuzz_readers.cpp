@@ -35,6 +35,11 @@ TEST(FuzzReaders, Obj)
   fuzz_kernel("obj");
 }
 
+TEST(FuzzReaders, Mtl)
+{
+  fuzz_kernel("mtl");
+}
+
 TEST(FuzzReaders, Ply)
 {
   fuzz_kernel("ply");
@@ -64,6 +69,13 @@ TEST(FuzzReaders, Gltf)
 {
   fuzz_kernel("gltf");
 }
+
+#if defined(BINDPOSE_HAS_DRACO) && defined(BINDPOSE_HAS_MESHOPTIMIZER)
+TEST(FuzzReaders, CompressedGltf)
+{
+  fuzz_kernel("compressed");
+}
+#endif
 
 TEST(FuzzReaders, PoseFiles)
 {

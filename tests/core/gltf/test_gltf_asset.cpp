@@ -201,7 +201,7 @@ protected:
   /// Read a document and give it the skin of two_joints() and weights_of().
   Status rig(const GltfDocument& document)
   {
-    Status status = this->asset_.read(this->write(document));
+    Status status = this->asset_.read(this->context_, this->write(document));
     EXPECT_TRUE(status.ok()) << status.message;
     status = this->asset_.set_skin(
       this->context_, make_skin(two_joints(), weights_of(this->asset_.points())), 4);
@@ -214,7 +214,7 @@ protected:
 
 TEST_F(GltfAssets, PointsAreThoseOfTheScene)
 {
-  const Status status = this->asset_.read(this->write(scene()));
+  const Status status = this->asset_.read(this->context_, this->write(scene()));
   ASSERT_TRUE(status.ok()) << status.message;
   // twice the cube, whose primitives share their vertices, the strip, and the points
   ASSERT_EQ(this->asset_.points().rows(), 8 + 8 + 4 + 4);
@@ -345,7 +345,7 @@ TEST_F(GltfAssets, MotionsThatAreLostAreNamed)
 
 TEST_F(GltfAssets, ThePoseOfTheJointsAndTheFramesAreWritten)
 {
-  ASSERT_TRUE(this->asset_.read(this->write(scene())).ok());
+  ASSERT_TRUE(this->asset_.read(this->context_, this->write(scene())).ok());
   const Points& points = this->asset_.points();
   GltfSkin skin = make_skin(two_joints(), weights_of(points));
   Eigen::Affine3d motion = Eigen::Affine3d::Identity();
@@ -374,7 +374,7 @@ TEST_F(GltfAssets, ThePoseOfTheJointsAndTheFramesAreWritten)
     EXPECT_LT((posed.row(v).transpose() - expected).norm(), 1e-5);
   }
   GltfSkin read;
-  ASSERT_TRUE(read_gltf_skin(this->folder_ / "out.glb", read).ok());
+  ASSERT_TRUE(read_gltf_skin(this->context_, this->folder_ / "out.glb", read).ok());
   EXPECT_EQ(read.frames_per_second, 12.0);
   ASSERT_EQ(read.frames.size(), 3u);
   for (int k = 0; k < 3; ++k)
@@ -390,7 +390,7 @@ TEST_F(GltfAssets, TheJointsOfTheFileAreKept)
 {
   this->rig(scene());
   GltfAsset again;
-  ASSERT_TRUE(again.read(this->folder_ / "out.glb").ok());
+  ASSERT_TRUE(again.read(this->context_, this->folder_ / "out.glb").ok());
   ASSERT_EQ(again.joints().size(), 2u);
   EXPECT_EQ(again.joints()[1].parent, 0);
   for (std::size_t j = 0; j < 2; ++j)
@@ -429,7 +429,7 @@ TEST_F(GltfAssets, TheJointsOfTheFileAreKept)
   }
   // The animation has this pose in its second frame.
   GltfSkin read;
-  ASSERT_TRUE(read_gltf_skin(this->folder_ / "again.glb", read).ok());
+  ASSERT_TRUE(read_gltf_skin(this->context_, this->folder_ / "again.glb", read).ok());
   ASSERT_EQ(read.frames.size(), 2u);
   EXPECT_LT(
     (read.frames[1].posed[1].matrix() - (motion * two_joints()[1].rest).matrix()).norm(), 1e-5);
@@ -440,7 +440,7 @@ TEST_F(GltfAssets, JointsAtOtherPositionsAreReplaced)
   GltfDocument document = scene();
   this->rig(document);
   GltfAsset again;
-  ASSERT_TRUE(again.read(this->folder_ / "out.glb").ok());
+  ASSERT_TRUE(again.read(this->context_, this->folder_ / "out.glb").ok());
   GltfSkin skin = make_skin(again.joints(), weights_of(again.points()));
   skin.joints[1].rest.translation()[2] += 0.1;
   const Status status = again.set_skin(this->context_, skin, 0);
@@ -502,7 +502,7 @@ TEST_F(GltfAssets, JointsBelowOtherNodesAreKept)
       { "inverseBindMatrices", document.append_accessor(binds, 16, 0) } });
   document.json()["scene"] = 0;
   animate(document, 4);
-  Status status = this->asset_.read(this->write(document));
+  Status status = this->asset_.read(this->context_, this->write(document));
   ASSERT_TRUE(status.ok()) << status.message;
   EXPECT_TRUE(status.warnings.empty());
   EXPECT_LT((this->asset_.points() - 3.0 * cube.points).cwiseAbs().maxCoeff(), 1e-5);
@@ -527,12 +527,12 @@ TEST_F(GltfAssets, JointsBelowOtherNodesAreKept)
   GltfDocument only = document;
   only.json().erase("animations");
   GltfAsset fresh;
-  ASSERT_TRUE(fresh.read(this->write(only)).ok());
+  ASSERT_TRUE(fresh.read(this->context_, this->write(only)).ok());
   skin.joints = fresh.joints();
   ASSERT_TRUE(fresh.set_skin(this->context_, skin, 0).ok());
   ASSERT_TRUE(fresh.write(this->folder_ / "fresh.glb", true).ok());
   GltfSkin read;
-  ASSERT_TRUE(read_gltf_skin(this->folder_ / "fresh.glb", read).ok());
+  ASSERT_TRUE(read_gltf_skin(this->context_, this->folder_ / "fresh.glb", read).ok());
   ASSERT_EQ(read.frames.size(), 2u);
   EXPECT_LT((read.frames[1].posed[0].matrix() - (motion * root).matrix()).norm(), 1e-5);
   EXPECT_LT((read.frames[1].posed[1].matrix() - (motion * motion * tip).matrix()).norm(), 1e-5);
@@ -540,7 +540,7 @@ TEST_F(GltfAssets, JointsBelowOtherNodesAreKept)
 
 TEST_F(GltfAssets, ACancelWhileFramesAreAddedIsReported)
 {
-  ASSERT_TRUE(this->asset_.read(this->write(scene())).ok());
+  ASSERT_TRUE(this->asset_.read(this->context_, this->write(scene())).ok());
   GltfSkin skin = make_skin(two_joints(), weights_of(this->asset_.points()));
   skin.frames.resize(1);
   skin.frames[0].posed = { skin.joints[0].rest, skin.joints[1].rest };
@@ -552,7 +552,7 @@ TEST_F(GltfAssets, AnOldSkinIsReplaced)
 {
   this->rig(scene());
   GltfAsset again;
-  Status status = again.read(this->folder_ / "out.glb");
+  Status status = again.read(this->context_, this->folder_ / "out.glb");
   ASSERT_TRUE(status.ok()) << status.message;
   EXPECT_TRUE(status.warnings.empty());
   EXPECT_LT((again.points() - this->asset_.points()).cwiseAbs().maxCoeff(), 1e-5);
@@ -598,7 +598,7 @@ TEST_F(GltfAssets, BuffersAndPicturesInFilesAreStoredInTheFile)
   json["images"] = Json::array(
     { Json{ { "uri", "picture.png" }, { "name", "kept" } }, Json{ { "uri", "missing.png" } } });
   const std::string path = this->folder_.write("in.gltf", json.dump());
-  Status status = this->asset_.read(path);
+  Status status = this->asset_.read(this->context_, path);
   ASSERT_TRUE(status.ok()) << status.message;
   ASSERT_EQ(status.warnings.size(), 1u);
   EXPECT_THAT(status.warnings[0], HasSubstr("the image 'missing.png' is not stored"));
@@ -613,12 +613,50 @@ TEST_F(GltfAssets, BuffersAndPicturesInFilesAreStoredInTheFile)
               joined.begin() + static_cast<std::ptrdiff_t>(view.byteOffset + view.byteLength)),
     picture);
   GltfAsset from_glb;
-  ASSERT_TRUE(from_glb.read(this->folder_ / "all.glb").ok());
+  ASSERT_TRUE(from_glb.read(this->context_, this->folder_ / "all.glb").ok());
   EXPECT_EQ(from_glb.points(), this->asset_.points());
   // as .gltf with everything inside
   ASSERT_TRUE(this->asset_.write(this->folder_ / "all.gltf", false).ok());
-  ASSERT_TRUE(from_glb.read(this->folder_ / "all.gltf").ok());
+  ASSERT_TRUE(from_glb.read(this->context_, this->folder_ / "all.gltf").ok());
   EXPECT_EQ(from_glb.points(), this->asset_.points());
+}
+
+TEST_F(GltfAssets, MeshesOfConvertedFilesMoveToRootNodes)
+{
+  std::string bytes;
+  ASSERT_TRUE(scene().to_bytes(true, bytes).ok());
+  ASSERT_TRUE(this->asset_.read_bytes("in.fbx", bytes).ok());
+  const Points points = this->asset_.points();
+  ASSERT_TRUE(
+    this->asset_.set_skin(this->context_, make_skin(two_joints(), weights_of(points)), 4).ok());
+  ASSERT_TRUE(this->asset_.write(this->folder_ / "out.glb", true).ok());
+  const File file(this->folder_ / "out.glb");
+  Index first = 0;
+  for (std::size_t id = 0; id < file.json["nodes"].size(); ++id)
+  {
+    const Json& node = file.json["nodes"][id];
+    if (!node.contains("mesh"))
+    {
+      continue;
+    }
+    EXPECT_TRUE(node.contains("skin"));
+    for (const char* property : { "translation", "rotation", "scale", "children", "camera" })
+    {
+      EXPECT_FALSE(node.contains(property)) << property;
+    }
+    const Json& roots = file.json["scenes"][0]["nodes"];
+    EXPECT_EQ(std::count(roots.begin(), roots.end(), Json(id)), 1);
+    const Points rest = file.skinned(static_cast<int>(id), 0, -1, Eigen::Affine3d::Identity());
+    EXPECT_LT((rest - points.middleRows(first, rest.rows())).cwiseAbs().maxCoeff(), 1e-6);
+    first += rest.rows();
+  }
+  EXPECT_EQ(first, 8 + 8 + 4);
+  // A node that only has the mesh moves; a node with a camera stays.
+  EXPECT_EQ(file.json["nodes"][2]["name"], "copy");
+  EXPECT_TRUE(file.json["nodes"][2].contains("mesh"));
+  EXPECT_EQ(file.json["nodes"][1]["children"], Json({ 3 }));
+  EXPECT_FALSE(file.json["nodes"][3].contains("mesh"));
+  EXPECT_EQ(file.json["nodes"][3]["camera"], 0);
 }
 
 TEST_F(GltfAssets, PicturesOutsideTheFolderAreRefused)
@@ -631,7 +669,7 @@ TEST_F(GltfAssets, PicturesOutsideTheFolderAreRefused)
   json.erase("textures");
   GltfDocument document = scene();
   document.json()["images"] = json["images"];
-  const Status status = this->asset_.read(this->write(document));
+  const Status status = this->asset_.read(this->context_, this->write(document));
   EXPECT_EQ(status.code, StatusCode::invalid_input);
   EXPECT_THAT(status.message, HasSubstr("is not in the folder of the file"));
 }
@@ -647,7 +685,7 @@ TEST_F(GltfAssets, FurtherChunksAreKept)
   content += chunk;
   const auto size = static_cast<std::uint32_t>(content.size());
   std::memcpy(content.data() + 8, &size, sizeof(size));
-  ASSERT_TRUE(this->asset_.read(this->folder_.write("more.glb", content)).ok());
+  ASSERT_TRUE(this->asset_.read(this->context_, this->folder_.write("more.glb", content)).ok());
   ASSERT_TRUE(this->asset_.write(this->folder_ / "out.glb", true).ok());
   const std::string written = this->folder_.read("out.glb");
   EXPECT_EQ(written.substr(written.size() - 12), chunk);
@@ -657,11 +695,11 @@ TEST_F(GltfAssets, WrongInputIsNamed)
 {
   GltfDocument empty;
   empty.append("nodes", { { "name", "nothing" } });
-  Status status = this->asset_.read(this->write(empty));
+  Status status = this->asset_.read(this->context_, this->write(empty));
   EXPECT_THAT(status.message, HasSubstr("the default scene contains no triangles"));
-  status = this->asset_.read(this->folder_ / "missing.glb");
+  status = this->asset_.read(this->context_, this->folder_ / "missing.glb");
   EXPECT_EQ(status.code, StatusCode::invalid_input);
-  ASSERT_TRUE(this->asset_.read(this->write(scene())).ok());
+  ASSERT_TRUE(this->asset_.read(this->context_, this->write(scene())).ok());
   status = this->asset_.set_skin(this->context_, make_skin(two_joints(), Weights::Ones(3, 2)), 0);
   EXPECT_EQ(status.message,
     "the weights have 3 rows and 2 columns; expected 24 rows and 2 columns, at least one");

@@ -41,13 +41,19 @@ json chain_of_nodes(bool animated)
   }
   return file;
 }
+
+Status read_motion(const std::string& path, GltfMotion& motion)
+{
+  ExecutionContext context;
+  return read_gltf_motion(context, path, motion);
+}
 } // namespace
 
 TEST(GltfMotion, NodesAreJoints)
 {
   const test::Folder folder;
   GltfMotion motion;
-  Status status = read_gltf_motion(folder.write("walk.gltf", chain_of_nodes(true).dump()), motion);
+  Status status = read_motion(folder.write("walk.gltf", chain_of_nodes(true).dump()), motion);
   ASSERT_TRUE(status.ok()) << status.message;
   ASSERT_EQ(motion.joints.size(), 3u);
   EXPECT_EQ(motion.joints[2].name, "head");
@@ -61,8 +67,7 @@ TEST(GltfMotion, NodesAreJoints)
   EXPECT_EQ(motion.animations, 1);
   EXPECT_THAT(motion.animated, testing::ElementsAre(0, 1, 0));
   // Without an animation there are joints, but no frames.
-  ASSERT_TRUE(
-    read_gltf_motion(folder.write("still.gltf", chain_of_nodes(false).dump()), motion).ok());
+  ASSERT_TRUE(read_motion(folder.write("still.gltf", chain_of_nodes(false).dump()), motion).ok());
   EXPECT_EQ(motion.joints.size(), 3u);
   EXPECT_TRUE(motion.frames.empty());
 }
@@ -73,10 +78,10 @@ TEST(GltfMotion, NodesOfSizeZeroAreLeftOut)
   json file = chain_of_nodes(false);
   file["nodes"][2]["scale"] = { 0, 0, 0 };
   GltfMotion motion;
-  ASSERT_TRUE(read_gltf_motion(folder.write("still.gltf", file.dump()), motion).ok());
+  ASSERT_TRUE(read_motion(folder.write("still.gltf", file.dump()), motion).ok());
   EXPECT_EQ(motion.joints.size(), 2u);
   file = { { "asset", { { "version", "2.0" } } } };
-  const Status status = read_gltf_motion(folder.write("empty.gltf", file.dump()), motion);
+  const Status status = read_motion(folder.write("empty.gltf", file.dump()), motion);
   EXPECT_EQ(status.code, StatusCode::invalid_input);
   EXPECT_THAT(status.message, HasSubstr("no node with an invertible transform"));
 }

@@ -1,5 +1,5 @@
-#ifndef helper_file_h
-#define helper_file_h
+#ifndef bindpose_helper_helper_file_h
+#define bindpose_helper_helper_file_h
 
 #include "base/status.h"
 

@@ -1,10 +1,13 @@
-#include "guarded_import.h"
+#include "helper/guarded_import.h"
 
-#include "helper_file.h"
+#include "helper/helper_file.h"
 #include "helper/helper_process.h"
 
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
+#include <filesystem>
+#include <system_error>
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -15,8 +18,8 @@ namespace bindpose
 namespace
 {
 constexpr Helper importer{ "bindpose-importer", "BINDPOSE_IMPORTER",
-  "the helper executable bindpose-importer is missing, because Bindpose was built without assimp "
-  "(Debian package libassimp-dev)" };
+  "the helper executable bindpose-importer is missing; reinstall Bindpose or set the environment "
+  "variable BINDPOSE_IMPORTER to its path" };
 
 /// Read a memory file from its beginning. Return false if that fails.
 bool read_whole(int file, std::string& bytes)
@@ -41,7 +44,7 @@ bool read_whole(int file, std::string& bytes)
 }
 
 /// Return the memory limit of the helper in MiB, 0: no limit. The libraries take about 200 MiB of
-/// address space. 3MF files, and arrays of FBX files, are compressed.
+/// address space. 3MF files, arrays of FBX files and meshes of glTF files are compressed.
 Index memory_limit(double size)
 {
 #if defined(__SANITIZE_ADDRESS__)
@@ -51,9 +54,11 @@ Index memory_limit(double size)
   return 1000 + static_cast<Index>(growth * size / mebibyte);
 #endif
 }
-} // namespace
 
-Status import_guarded(ExecutionContext& context, const std::string& path, std::string& bytes)
+/// Run the helper with a command: convert or decompress.
+/// @param further_files other files that the helper reads
+Status run_importer(ExecutionContext& context, const char* command, const std::string& path,
+  const std::vector<std::string>& further_files, std::string& bytes)
 {
   std::string full;
   double size = 0.0;
@@ -61,6 +66,12 @@ Status import_guarded(ExecutionContext& context, const std::string& path, std::s
   if (!found.ok())
   {
     return found;
+  }
+  for (const std::string& file : further_files)
+  {
+    std::error_code error;
+    const std::uintmax_t further = std::filesystem::file_size(file, error);
+    size += error ? 0.0 : static_cast<double>(further);
   }
   const FileDescriptor result(anonymous_file("bindpose-import"));
   if (result.get() < 0)
@@ -70,7 +81,7 @@ Status import_guarded(ExecutionContext& context, const std::string& path, std::s
   }
   HelperRequest request;
   request.name = importer.program;
-  request.arguments = { full };
+  request.arguments = { command, full };
   request.memory_limit = memory_limit(size);
   constexpr double bytes_per_second = 2e5;
   request.time_limit = 10.0 + size / bytes_per_second;
@@ -80,11 +91,24 @@ Status import_guarded(ExecutionContext& context, const std::string& path, std::s
   {
     status = Status::failure(StatusCode::internal_error, "the importer returned no data");
   }
+  status.warnings = run.warnings;
   if (status.code == StatusCode::internal_error)
   {
     return Status::invalid_input(path + " cannot be read: " + status.message);
   }
   return status;
+}
+} // namespace
+
+Status import_guarded(ExecutionContext& context, const std::string& path, std::string& bytes)
+{
+  return run_importer(context, "convert", path, {}, bytes);
+}
+
+Status decompress_guarded(ExecutionContext& context, const std::string& path,
+  const std::vector<std::string>& buffer_files, std::string& bytes)
+{
+  return run_importer(context, "decompress", path, buffer_files, bytes);
 }
 
 } // namespace bindpose

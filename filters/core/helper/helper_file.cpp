@@ -1,4 +1,4 @@
-#include "helper_file.h"
+#include "helper/helper_file.h"
 
 #include <filesystem>
 #include <system_error>

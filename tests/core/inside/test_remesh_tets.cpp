@@ -299,6 +299,26 @@ TEST_F(Remesh, ThinPlatesAreKept)
   EXPECT_NEAR(outcome.volume(), 0.02, 0.001);
 }
 
+TEST_F(Remesh, ABoundaryThatIsTooThinIsRefusedBeforeTheRefinement)
+{
+  // The two large faces of the plate are thin: 2 of the whole area, 8.
+  TriangleMesh plate = test::cube(0.0, 1.0);
+  plate.points.col(2) *= 0.002;
+  const TriangleMesh mesh =
+    test::join(test::cube(0.0, 1.0), test::translated(plate, Vec3(2, 0, 0)));
+  RemeshOptions options;
+  options.maximum_thin_fraction = 0.2;
+  const RemeshOutcome refused = run_remesh(mesh, options);
+  EXPECT_EQ(refused.status.code, StatusCode::internal_error);
+  EXPECT_THAT(refused.status.message, HasSubstr("thinner than the smallest edge (at most 20 %"));
+  EXPECT_NEAR(refused.status.report.number("thin_fraction", -1.0), 0.25, 0.02);
+  EXPECT_EQ(refused.result.mesh.tets.rows(), 0);
+  options.maximum_thin_fraction = 0.3;
+  const RemeshOutcome outcome = run_remesh(mesh, options);
+  EXPECT_TRUE(outcome.status.ok()) << outcome.status.message;
+  EXPECT_NEAR(outcome.status.report.number("thin_fraction", -1.0), 0.25, 0.02);
+}
+
 TEST_F(Remesh, LengthsAreFractions)
 {
   // Scaling by a power of two does not round, so the tets are the same.

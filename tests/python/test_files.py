@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import shapes
 from bindpose.meshes import add_point_array, points_of, to_dataset
+from gltf_file import GltfFile
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
 
 
@@ -50,6 +51,31 @@ def test_rigs(tmp_path):
         bindpose.write_rig(mesh, tmp_path / "h.tgf", tmp_path / "rig.glb")
     with pytest.raises(bindpose.InvalidInput, match="animation"):
         bindpose.write_rig(mesh, tmp_path / "h.tgf", tmp_path / "rig.glb", animation="shapes")
+
+
+def test_a_character_comes_back_with_its_poses(tmp_path):
+    foreign_rig.write_foreign_rig(tmp_path / "c.gltf", animations=24, fingers=12)
+    (tmp_path / "skin.png").write_bytes(shapes.png(1, 1, lambda x, y: (0, 0, 0, 255)))
+    before = GltfFile(tmp_path / "c.gltf")
+    mesh, joints = bindpose.read_asset(tmp_path / "c.gltf")
+    rest = before.skinned_points()
+    assert points_of(mesh) == pytest.approx(rest, abs=1e-5)  # the scales of the nodes are uneven
+    of_file = [before.json["nodes"][joint]["name"] for joint in before.json["skins"][0]["joints"]]
+    names = [joints.GetCellData().GetAbstractArray("HandleName").GetValue(k) for k in range(joints.GetNumberOfCells())]
+    assert len(names) >= 40 and len(before.json["meshes"]) >= 10
+    weights = np.concatenate([before.weights(k) for k in range(len(before.json["meshes"]))])
+    add_point_array(mesh, "Weights", weights[:, [of_file.index(name) for name in names]], names)
+    report = bindpose.write_rig(mesh, joints, tmp_path / "out.glb", asset=tmp_path / "c.gltf")
+    assert report["kept_joints"] == "yes" and "losses" not in report
+    after = GltfFile(tmp_path / "out.glb")
+    diagonal = np.linalg.norm(np.ptp(rest, axis=0))
+    errors, moves = [], []
+    for animation in range(24):
+        for key in range(5):
+            posed = before.skinned_points(animation, key)
+            moves.append(np.abs(posed - rest).max())
+            errors.append(np.abs(after.skinned_points(animation, key) - posed).max())
+    assert max(moves) > 0.1 * diagonal and max(errors) <= 1e-6 * diagonal
 
 
 def test_assets(tmp_path):

@@ -86,30 +86,46 @@ class Buffer:
                 "buffers": [{"byteLength": len(self.bytes), "uri": data}]}
 
 
-def write_foreign_rig(path, animations=76, keys=5, placeholder=False):
+def _fingers(count):
+    """Return a chain of finger joints for each hand."""
+    return [(f"finger{k}.{side}", f"finger{k - 1}.{side}" if k else f"hand.{side}", (sign * (1.12 + 0.01 * k), 1.6, 0.02 * k))
+            for side, sign in (("L", 1), ("R", -1)) for k in range(count)]
+
+
+def _weights(names, joint, vertex, fingers):
+    """Return the joints and weights of a vertex. Forearms also follow the fingers, if there are any."""
+    if joint.startswith("forearm") and fingers:
+        finger = names.index(f"finger{vertex % fingers}{joint[-2:]}")
+        return [names.index(joint), finger, 0, 0], [0.625, 0.375, 0.0, 0.0]
+    return [names.index(joint), 0, 0, 0], [1.0, 0.0, 0.0, 0.0]
+
+
+def write_foreign_rig(path, animations=76, keys=5, placeholder=False, fingers=0):
     """Write the character as text (.gltf) with embedded binary data. If `placeholder` is true, all vertices belong to
-    hips.
+    hips. Each hand has `fingers` more joints.
     """
-    names = [name for name, _, _ in JOINTS]
-    places = {name: place for name, _, place in JOINTS}
+    all_joints = JOINTS + _fingers(fingers)
+    names = [name for name, _, _ in all_joints]
+    places = {name: place for name, _, place in all_joints}
     buffer = Buffer()
     nodes = []
-    for name, parent, place in JOINTS:
+    for name, parent, place in all_joints:
         above = places.get(parent, (0, 0, 0))
         nodes.append({"name": name, "translation": [place[k] - above[k] for k in range(3)], "scale": list(UNEVEN)})
-        children = [k for k, (_, up, _) in enumerate(JOINTS) if up == name]
+        children = [k for k, (_, up, _) in enumerate(all_joints) if up == name]
         if children:
             nodes[-1]["children"] = children
     inverse = buffer.add([[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, *(-x for x in places[name]), 1] for name in names], "MAT4")
     meshes = []
     for k, (name, lower, upper, joint) in enumerate(BOXES):
         points, triangles = _box(lower, upper)
+        rows = [_weights(names, "hips" if placeholder else joint, v, fingers) for v in range(len(points))]
         primitive = {
             "attributes": {
                 "POSITION": buffer.add(points, "VEC3"),
                 "TEXCOORD_0": buffer.add([[p[0] % 1, p[1] % 1] for p in points], "VEC2"),
-                "JOINTS_0": buffer.add([[names.index("hips" if placeholder else joint), 0, 0, 0]] * len(points), "VEC4", "B"),
-                "WEIGHTS_0": buffer.add([[1.0, 0.0, 0.0, 0.0]] * len(points), "VEC4")},
+                "JOINTS_0": buffer.add([joints for joints, _ in rows], "VEC4", "B"),
+                "WEIGHTS_0": buffer.add([weights for _, weights in rows], "VEC4")},
             "indices": buffer.add([x for t in triangles for x in t], "SCALAR", "H"),
             "material": k % 2}
         meshes.append({"name": name, "primitives": [primitive]})
@@ -124,15 +140,15 @@ def write_foreign_rig(path, animations=76, keys=5, placeholder=False):
     motions = []
     for which in range(animations):
         samplers, channels = [], []
-        for node in range(len(JOINTS)):
+        for node in range(len(all_joints)):
             for values, target in ((tracks[(which + node) % 2], "rotation"), (scales, "scale")):
                 channels.append({"sampler": len(samplers), "target": {"node": node, "path": target}})
                 samplers.append({"input": times, "output": values, "interpolation": "LINEAR"})
         motions.append({"name": f"Motion {which}", "samplers": samplers, "channels": channels})
     file = {
         "asset": {"version": "2.0", "generator": "another program"}, "scene": 0,
-        "scenes": [{"nodes": [0, *range(len(JOINTS), len(nodes))]}], "nodes": nodes, "meshes": meshes,
-        "skins": [{"joints": list(range(len(JOINTS))), "inverseBindMatrices": inverse, "skeleton": 0}],
+        "scenes": [{"nodes": [0, *range(len(all_joints), len(nodes))]}], "nodes": nodes, "meshes": meshes,
+        "skins": [{"joints": list(range(len(all_joints))), "inverseBindMatrices": inverse, "skeleton": 0}],
         "animations": motions,
         "materials": [{"name": "skin", "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}, {"name": "cloth"}],
         "textures": [{"source": 0}], "images": [{"uri": "skin.png"}],

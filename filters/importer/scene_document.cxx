@@ -1,8 +1,11 @@
 #include "scene_document.h"
 
 #include "base/status.h"
+#include "gltf/gltf_images.h"
+#include "gltf/gltf_model.h"
 #include "gltf_edit/gltf_joints.h"
 #include "gltf_edit/gltf_weights.h"
+#include "helper/helper_start.h"
 
 #include <assimp/GltfMaterial.h>
 #include <assimp/material.h>
@@ -12,6 +15,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <set>
 #include <system_error>
@@ -154,26 +158,110 @@ private:
     return entry->second;
   }
 
+  /// Append a picture that is in the file.
   int append_embedded(const aiTexture& texture)
   {
     const bool is_file = texture.mHeight == 0; // otherwise raw pixels
-    return is_file ? this->document_.append_image(
-                       std::string(reinterpret_cast<const char*>(texture.pcData), texture.mWidth),
-                       texture.mFilename.C_Str())
-                   : -1;
+    const std::string bytes = is_file
+      ? std::string(reinterpret_cast<const char*>(texture.pcData), texture.mWidth)
+      : tga_file(texture);
+    // TGA files are recognized by the extension of their names.
+    const std::string name = base_name(texture) + "." +
+      (is_file ? std::string(texture.achFormatHint) : std::string("tga"));
+    if (is_convertible(picture_format(bytes, name)))
+    {
+      // Bindpose converts the picture when it reads the document.
+      return this->document_.append("images", { { "name", name }, { "uri", to_data_uri(bytes) } });
+    }
+    const int image = this->document_.append_image(bytes, name);
+    if (image < 0)
+    {
+      leave_out(name);
+    }
+    return image;
   }
 
+  /// Return the name of an embedded picture without folder and extension.
+  std::string base_name(const aiTexture& texture) const
+  {
+    const std::string name =
+      std::filesystem::path(with_slashes(to_text(texture.mFilename))).stem().string();
+    const auto begin = this->scene_.mTextures;
+    const auto number = std::find(begin, begin + this->scene_.mNumTextures, &texture) - begin;
+    return name.empty() ? "picture " + std::to_string(number) : name;
+  }
+
+  static std::string with_slashes(std::string path)
+  {
+    std::replace(path.begin(), path.end(), '\\', '/');
+    return path;
+  }
+
+  /// Append a reference to a picture file.
   int append_file(const aiString& path)
   {
-    std::string name = path.C_Str();
-    std::replace(name.begin(), name.end(), '\\', '/');
-    std::error_code error;
-    if (!std::filesystem::exists(this->folder_ + "/" + name, error))
+    std::string name = with_slashes(path.C_Str());
+    if (name.empty())
+    {
+      return -1;
+    }
+    std::string format = this->file_format(name);
+    if (format.empty())
     {
       // Paths of the computer that wrote the file do not exist here.
       name = std::filesystem::path(name).filename().string();
+      format = this->file_format(name);
     }
-    return name.empty() ? -1 : this->document_.append("images", { { "uri", encode_uri(name) } });
+    if (format != "png" && format != "jpg" && !is_convertible(format))
+    {
+      leave_out(name);
+      return -1;
+    }
+    return this->document_.append("images", { { "uri", encode_uri(name) } });
+  }
+
+  /// Return the format of a picture file; empty if it is not in the folder or has an unknown
+  /// format.
+  std::string file_format(const std::string& name) const
+  {
+    const std::string path = this->folder_ + "/" + name;
+    std::string beginning;
+    if (is_in_folder(path, this->folder_))
+    {
+      beginning.resize(longest_picture_signature);
+      std::ifstream file(path, std::ios::binary);
+      file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+      beginning.resize(static_cast<std::size_t>(file.gcount()));
+    }
+    return picture_format(beginning, name);
+  }
+
+  static void leave_out(const std::string& name)
+  {
+    helper_warn("the picture '" + sanitize_line(name) +
+      "' is left out because it is missing, damaged, of an unknown format or outside of the folder "
+      "of the file; expected PNG, JPEG, BMP, TIFF or TGA");
+  }
+
+  /// Return an uncompressed TGA file with the pixels of a texture.
+  static std::string tga_file(const aiTexture& texture)
+  {
+    constexpr unsigned int largest_side = 65535;
+    if (texture.mWidth > largest_side || texture.mHeight > largest_side)
+    {
+      return "";
+    }
+    std::string bytes(18, '\0');
+    bytes[2] = 2; // colors, not compressed
+    bytes[12] = static_cast<char>(texture.mWidth % 256);
+    bytes[13] = static_cast<char>(texture.mWidth / 256);
+    bytes[14] = static_cast<char>(texture.mHeight % 256);
+    bytes[15] = static_cast<char>(texture.mHeight / 256);
+    bytes[16] = 32; // bits per pixel: blue, green, red, alpha, like aiTexel
+    bytes[17] = 0x28; // 8 bits of alpha; the first line is at the top
+    bytes.append(reinterpret_cast<const char*>(texture.pcData),
+      std::size_t(texture.mWidth) * texture.mHeight * sizeof(aiTexel));
+    return bytes;
   }
 
   /// Replace the characters that a URI cannot contain by %XX.

@@ -1,6 +1,8 @@
 """bindpose rig: a glTF file gets joints and weights and keeps everything else."""
 
+import base64
 import json
+import struct
 
 import foreign_rig
 import numpy as np
@@ -257,9 +259,28 @@ def test_a_collada_file_keeps_its_look(folder):
     material = file.json["materials"][file.json["meshes"][mesh]["primitives"][0]["material"]]
     source = file.json["textures"][material["pbrMetallicRoughness"]["baseColorTexture"]["index"]]["source"]
     assert file.view(file.json["images"][source]["bufferView"]) == picture
+    skinned, = (id for id, node in enumerate(file.json["nodes"]) if "skin" in node)
+    assert set(file.json["nodes"][skinned]) == {"name", "mesh", "skin"} and skinned in file.json["scenes"][0]["nodes"]
     # The scene is in meters, with y up.
     handles = [node["extras"]["bindpose"]["head"] for node in file.json["nodes"] if "extras" in node]
     assert all(-0.01 <= x <= 3.01 and 0.99 <= y <= 1.51 and -0.51 <= z <= 0.01 for x, y, z in handles)
+
+
+def test_missing_pictures_of_the_importer_are_named(folder):
+    write_collada(folder)
+    (folder / "wood.png").unlink()
+    run = folder.run("rig", "bar.dae", "--handles", "auto:3", "-o", "bar.glb").is_good()
+    assert run.err.count("the picture 'wood.png' is left out because it is missing") == 1
+    assert not {"images", "textures"} & set(GltfFile(folder / "bar.glb").json)
+    folder.write("wood.png", "not a picture")
+    words = ("rig", "bar.dae", "--handles", "auto:3", "-o", "bar.glb", "--overwrite")
+    assert "wood.png" in folder.run(*words).is_good().err
+    text = (folder / "bar.dae").read_text()
+    for name in ("wood.tga", "C:\\pictures\\wood.tga", "../secret.png"):
+        folder.path.parent.joinpath("secret.png").write_bytes(shapes.png(1, 1, lambda x, y: (0, 0, 0, 255)))
+        folder.write("bar.dae", text.replace("wood.png", name))
+        run = folder.run(*words).is_good()
+        assert f"the picture '{name.rsplit('/', 1)[-1].rsplit(chr(92), 1)[-1]}' is left out" in run.err
 
 
 def test_damaged_files_of_the_importer(folder):
@@ -270,6 +291,58 @@ def test_damaged_files_of_the_importer(folder):
     folder.run("rig", "text.fbx", "-o", "o.glb").is_refused("text.fbx cannot be read")
     folder.run("rig", "none.3ds", "-o", "o.glb").is_refused("none.3ds cannot be read: there is no such file")
     folder.run("rig", "bar.dae", "-o", "o.glb", environment={"BINDPOSE_IMPORTER": "/none"}).is_refused("BINDPOSE_IMPORTER")
+
+
+def matrix_is_nan(file):
+    view = file["bufferViews"][file["accessors"][file["skins"][0]["inverseBindMatrices"]]["bufferView"]]
+    head, text = file["buffers"][0]["uri"].split(",")
+    data = bytearray(base64.b64decode(text))
+    data[view["byteOffset"]:view["byteOffset"] + 4] = struct.pack("<f", float("nan"))
+    file["buffers"][0]["uri"] = f"{head},{base64.b64encode(data).decode()}"
+
+
+def joint_is_no_node(file):
+    file["skins"][0]["joints"][3] = 999
+
+
+def nodes_are_a_cycle(file):
+    file["nodes"][2]["children"] = [0]
+
+
+def sparse_index_is_too_large(file):
+    primitive = file["meshes"][0]["primitives"][0]
+    view = file["accessors"][primitive["indices"]]["bufferView"]
+    accessor = file["accessors"][primitive["attributes"]["POSITION"]]
+    # Two indices of 16 bits, read as one of 32 bits, are larger than the number of vertices.
+    accessor["sparse"] = {"count": 1, "indices": {"bufferView": view, "byteOffset": 4, "componentType": 5125},
+                          "values": {"bufferView": accessor["bufferView"]}}
+
+
+def buffer_is_outside(file):
+    file["buffers"][0]["uri"] = "../secret.bin"
+
+
+@pytest.mark.parametrize("change, words", [
+    (matrix_is_nan, ("inverse bind matrices", "finite")), (joint_is_no_node, ("999",)), (nodes_are_a_cycle, ("cycle",)),
+    (sparse_index_is_too_large, ("sparse",)), (buffer_is_outside, ("secret.bin",))])
+def test_bad_assets_are_one_sentence(character, change, words):
+    character.path.parent.joinpath("secret.bin").write_bytes(bytes(100000))
+    file = json.loads((character / "c.gltf").read_text())
+    change(file)
+    character.write("bad.gltf", json.dumps(file))
+    character.run("rig", "bad.gltf", "-o", "out.glb").is_refused("bad.gltf", *words)
+    assert not (character / "out.glb").exists()
+
+
+def test_a_chain_of_a_million_nodes(folder):
+    write_statue(folder)
+    file = json.loads((folder / "statue.gltf").read_text())
+    count = 1_000_000
+    file["nodes"] += [{"children": [k + 2]} for k in range(count - 1)] + [{}]
+    file["scenes"][0]["nodes"].append(1)
+    folder.write("long.gltf", json.dumps(file))
+    folder.run("rig", "long.gltf", "--handles", "auto:2", "--domain", "surface", "-o", "out.glb").is_good()
+    assert len(GltfFile(folder / "out.glb").json["nodes"]) > count
 
 
 def test_the_weights_of_the_surface(folder):

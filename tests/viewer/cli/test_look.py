@@ -265,6 +265,90 @@ def test_other_formats_of_pictures_become_png(folder, name, picture):
     assert f"the picture '{name}' is left out because it is damaged" in render(folder, "s.obj")[1].err
 
 
+# A square of 100 x 100 cm with an embedded picture. Polygons end with the bitwise complement of a vertex.
+FBX = """; FBX 7.4.0 project file
+FBXHeaderExtension:  {
+	FBXHeaderVersion: 1003
+	FBXVersion: 7400
+}
+Objects:  {
+	Geometry: 1, "Geometry::square", "Mesh" {
+		Vertices: *12 { a: 0,0,0,100,0,0,100,100,0,0,100,0 }
+		PolygonVertexIndex: *4 { a: 0,1,2,-4 }
+		LayerElementUV: 0 {
+			Version: 101
+			Name: "map"
+			MappingInformationType: "ByVertice"
+			ReferenceInformationType: "Direct"
+			UV: *8 { a: 0,0,1,0,1,1,0,1 }
+		}
+		LayerElementMaterial: 0 {
+			Version: 101
+			Name: ""
+			MappingInformationType: "AllSame"
+			ReferenceInformationType: "IndexToDirect"
+			Materials: *1 { a: 0 }
+		}
+		Layer: 0 {
+			Version: 100
+			LayerElement:  {
+				Type: "LayerElementUV"
+				TypedIndex: 0
+			}
+			LayerElement:  {
+				Type: "LayerElementMaterial"
+				TypedIndex: 0
+			}
+		}
+	}
+	Model: 2, "Model::square", "Mesh" {
+		Version: 232
+	}
+	Material: 3, "Material::m", "" {
+		Version: 102
+		ShadingModel: "phong"
+	}
+	Texture: 4, "Texture::t", "" {
+		Type: "TextureVideoClip"
+		FileName: "C:\\\\pictures\\\\s.tga"
+		RelativeFilename: "s.tga"
+	}
+	Video: 5, "Video::v", "Clip" {
+		Type: "Clip"
+		FileName: "C:\\\\pictures\\\\s.tga"
+		RelativeFilename: "s.tga"
+		Content: , "{content}"
+	}
+}
+Connections:  {
+	C: "OO",2,0
+	C: "OO",1,2
+	C: "OO",3,2
+	C: "OP",4,3,"DiffuseColor"
+	C: "OO",5,4
+}
+"""
+
+
+@pytest.mark.parametrize("picture", [tga(2, 2, four_colors), bmp(2, 2, four_colors), shapes.png(2, 2, four_colors)],
+                         ids=["tga", "bmp", "png"])
+def test_pictures_in_fbx_files(folder, picture):
+    folder.write("s.fbx", FBX.replace("{content}", base64.b64encode(picture).decode()))
+    pixels, run = render(folder, "s.fbx")
+    assert run.err == ""
+    centers = [at(pixels, x, y) for x, y in ((0.25, 0.25), (0.75, 0.25), (0.25, 0.75))]
+    assert [color.index(max(color)) for color in centers] == [0, 1, 2]
+    folder.run("rig", "s.fbx", "--handles", "auto:1", "--domain", "surface", "-o", "s.glb").is_good()
+    image, = GltfFile(folder / "s.glb").json["images"]
+    assert image["mimeType"] == "image/png" and "uri" not in image
+
+
+def test_half_of_an_fbx_file(folder):
+    folder.write("s.fbx", FBX[:len(FBX) // 2])
+    folder.run("rig", "s.fbx", "-o", "s.glb").is_refused("s.fbx")
+    folder.run("render", "s.fbx", "-o", "s.png").is_refused("s.fbx")
+
+
 def test_colors_of_a_ply_file(folder):
     folder.write("c.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
                           "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n"

@@ -544,8 +544,9 @@ private:
     }
   }
 
-  /// Exclude the smallest weights of solved rows with too many weights above 0.
-  /// @return whether any weight is excluded
+  /// If solved rows have too many weights above 0, exclude the smallest ones. Also exclude the
+  /// weights of 0 in all solved rows, because the next solution could have other weights above 0.
+  /// @return whether a row has too many weights
   bool exclude_smallest()
   {
     const Index m = this->rows_.cols();
@@ -553,12 +554,12 @@ private:
     bool any = false;
     for (std::size_t v = 0; v < this->free_.size(); ++v)
     {
-      Eigen::RowVectorXd kept = this->rows_.row(static_cast<Index>(v));
-      if (!this->free_[v] || !keep_largest(this->most_, kept))
+      if (!this->free_[v])
       {
         continue;
       }
-      any = true;
+      Eigen::RowVectorXd kept = this->rows_.row(static_cast<Index>(v));
+      any = keep_largest(this->most_, kept) || any;
       for (Index j = 0; j < m; ++j)
       {
         this->excluded_[v * m + j] = kept[j] == 0.0;

@@ -60,14 +60,6 @@ Json& element(Json& document, const char* list, std::size_t id)
   return document[list][id];
 }
 
-/// Return an extension of an object, or null.
-const Json* extension(const Json& object, const char* name)
-{
-  const bool exists = object.is_object() && object.contains("extensions") &&
-    object["extensions"].is_object() && object["extensions"].contains(name);
-  return exists ? &object["extensions"][name] : nullptr;
-}
-
 // ---- Values of accessors -----------------------------------------------------------------------
 
 int component_count(const Json& accessor)
@@ -266,9 +258,9 @@ private:
   }
 
   /// Return the bytes of a buffer view, which may be compressed.
-  std::string read_view(Json& view) const
+  std::string read_view(const Json& view) const
   {
-    const Json* compression = extension(view, meshopt_extension);
+    const Json* compression = gltf_extension(view, meshopt_extension);
     if (!compression)
     {
       return std::string(this->bytes_of(view));
@@ -287,7 +279,7 @@ private:
   /// Decompress the mesh of a primitive.
   void decompress(Json& primitive)
   {
-    const Json* found = extension(primitive, draco_extension);
+    const Json* found = gltf_extension(primitive, draco_extension);
     if (!found)
     {
       return;

@@ -54,14 +54,17 @@ std::string gltf_buffer_path(const Json& buffer, const std::string& folder)
   return is_data_uri(uri) ? "" : folder + "/" + decode_uri(uri);
 }
 
+const Json* gltf_extension(const Json& object, const char* name)
+{
+  const bool exists = object.is_object() && object.contains("extensions") &&
+    object["extensions"].is_object() && object["extensions"].contains(name);
+  return exists ? &object["extensions"][name] : nullptr;
+}
+
 bool is_fallback_buffer(const Json& buffer)
 {
-  if (!buffer.is_object() || !buffer.contains("extensions") || !buffer["extensions"].is_object())
-  {
-    return false;
-  }
-  const Json extension = buffer["extensions"].value(meshopt_extension, Json());
-  return extension.is_object() && extension.value("fallback", Json()) == true;
+  const Json* extension = gltf_extension(buffer, meshopt_extension);
+  return extension && extension->is_object() && extension->value("fallback", Json()) == true;
 }
 
 GltfCompression find_compression(std::string_view content, const std::string& folder)

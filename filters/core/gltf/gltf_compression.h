@@ -25,6 +25,10 @@ nlohmann::ordered_json parse_gltf_text(std::string_view text);
 /// @param folder the folder of the glTF file
 std::string gltf_buffer_path(const nlohmann::ordered_json& buffer, const std::string& folder);
 
+/// Return an extension of an object of the JSON text, or null.
+const nlohmann::ordered_json* gltf_extension(
+  const nlohmann::ordered_json& object, const char* name);
+
 /// Report whether a buffer has no values of its own: EXT_meshopt_compression declares such buffers
 /// for programs that do not decompress.
 bool is_fallback_buffer(const nlohmann::ordered_json& buffer);

@@ -19,7 +19,7 @@ struct GltfContent
 };
 
 /// Read and parse a file, and call use(content, status), which may add warnings and a report to the
-/// status. Meshes that are compressed by Draco or meshopt are decompressed by
+/// status. A file that requires decompression by Draco or meshopt is decompressed by
 /// decompress_guarded().
 /// Return invalid_input, with the path in the message, if the file cannot be read, or if
 /// parse_gltf() or use() throws GltfError or std::bad_alloc; the status of decompress_guarded() if
@@ -28,7 +28,7 @@ Status read_gltf_file(ExecutionContext& context, const std::string& path,
   const std::function<void(const GltfContent&, Status&)>& use);
 
 /// Parse the bytes of a file, which may be made from a file of another format, and call
-/// use(content, status). See read_gltf_file(). Files with compressed meshes are refused.
+/// use(content, status). See read_gltf_file(). Files that require decompression are refused.
 Status read_gltf_bytes(const std::string& path, std::string bytes,
   const std::function<void(const GltfContent&, Status&)>& use);
 

@@ -54,11 +54,7 @@ GltfDocument::GltfDocument(const std::string& content, const tinygltf::Model& mo
   : convert_(std::move(convert))
 {
   const GltfChunks chunks = split_gltf(content);
-  this->json_ = Json::parse(chunks.text, nullptr, false);
-  if (!this->json_.is_object())
-  {
-    throw GltfError("the JSON text is not valid");
-  }
+  this->json_ = parse_gltf_text(chunks.text);
   this->further_chunks_ = chunks.further;
   remove_compression(this->json_);
   this->join_buffers(model);

@@ -153,11 +153,21 @@ def to_vertices(weights, shape_points, vertex_points):
     count = len(vertex_points)
     if count == len(shape_points):
         return weights
-    size = np.ptp(np.array(shape_points), axis=0).max()
+    size = size_of(shape_points)
     if count <= len(shape_points) and \
             np.abs(np.array(shape_points[:count]) - np.array(vertex_points)).max(initial=0) <= 1e-6 * size:
         return weights[:count]
     return weights[nearest(shape_points, vertex_points)]
+
+
+def size_of(points):
+    """Return the largest side of the bounding box."""
+    return np.ptp(np.array(points), axis=0).max()
+
+
+def mirrored(points, middle):
+    """Return the mirror images of points at the plane x = middle."""
+    return [Vector((2 * middle - point.x, point.y, point.z)) for point in points]
 
 
 def nearest(points, queries):
@@ -191,10 +201,10 @@ def mirrored_mean(weights, names, points):
     is_alone = [other not in names for other in opposite]
     if len(points) == 0:
         return weights
-    mirrored = [Vector((-point.x, point.y, point.z)) for point in points]
-    images = np.array(nearest(points, mirrored))
-    size = max(max(values) - min(values) for values in zip(*points))
-    has_image = np.array([(point - points[image]).length <= 1e-3 * size for point, image in zip(mirrored, images)])
+    opposite_points = mirrored(points, 0)
+    images = np.array(nearest(points, opposite_points))
+    tolerance = 1e-3 * size_of(points)
+    has_image = np.array([(point - points[image]).length <= tolerance for point, image in zip(opposite_points, images)])
     moves_alone = weights[:, is_alone].sum(axis=1) > WEIGHT_THRESHOLD
     has_image &= ~(moves_alone | moves_alone[images])
     rows = weights.copy()
@@ -244,18 +254,15 @@ def bind_armature(thing, armature):
 def mirror_images(points, middle):
     """Return for each point the index of its mirror image at the plane x = middle, or None. Points that are almost mirror
     images are moved, so that they are exact."""
-    tolerance = 0.03 * max(max(values) - min(values) for values in zip(*points))
-
-    def mirrored(point):
-        return Vector((2 * middle - point.x, point.y, point.z))
-
-    neighbors = nearest(points, [mirrored(point) for point in points])
-    images = [other if neighbors[other] == index and (mirrored(points[index]) - points[other]).length <= tolerance else None
+    tolerance = 0.03 * size_of(points)
+    opposite_points = mirrored(points, middle)
+    neighbors = nearest(points, opposite_points)
+    images = [other if neighbors[other] == index and (opposite_points[index] - points[other]).length <= tolerance else None
               for index, other in enumerate(neighbors)]
     for index, other in enumerate(images):
         if other is not None and index <= other:
-            points[index] = (points[index] + mirrored(points[other])) / 2
-            points[other] = mirrored(points[index])
+            points[index] = (points[index] + opposite_points[other]) / 2
+            points[other] = mirrored([points[index]], middle)[0]
     return images
 
 

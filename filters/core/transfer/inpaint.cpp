@@ -1,17 +1,14 @@
 // Transfer weights by matching and inpainting (see inpaint.h).
 #include "transfer/inpaint.h"
 
-#include "domain/scaled_mesh.h"
 #include "qp/box_qp.h"
-#include "surface/triangle_predicates.h"
-#include "surface/vertex_order.h"
+#include "transfer/solved_mesh.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <memory>
-#include <numeric>
 #include <queue>
 #include <utility>
 
@@ -20,98 +17,6 @@ namespace bindpose
 
 namespace
 {
-/// The mesh on which the rows are solved. Points of a surface at the same position are one vertex.
-struct SolvedMesh
-{
-  Domain domain;
-  /// #points; -1: the point of a surface is in no triangle with an area
-  std::vector<Index> vertex_of_point;
-  std::vector<Index> point_of_vertex; ///< one of the points at each vertex; a matched one, if any
-  std::vector<char> matched; ///< #V: 1 if one of the points at the vertex matches
-  Components parts;
-};
-
-/// Merge the points of a surface that have the same position, and leave out triangles whose corners
-/// are collinear.
-void merge_surface(const Domain& target, SolvedMesh& mesh)
-{
-  const Index n = target.points.rows();
-  std::vector<char> used(static_cast<std::size_t>(n), 0);
-  std::vector<Index> kept;
-  for (Index f = 0; f < target.triangles.rows(); ++f)
-  {
-    const auto corner = [&](int k) -> Vec3 { return target.points.row(target.triangles(f, k)); };
-    if (!collinear(corner(0), corner(1), corner(2)))
-    {
-      kept.push_back(f);
-      for (int k = 0; k < 3; ++k)
-      {
-        used[target.triangles(f, k)] = 1;
-      }
-    }
-  }
-  const std::vector<Index> representative = find_representatives(target.points, used);
-  std::vector<Index> vertices; // their representatives
-  for (Index i = 0; i < n; ++i)
-  {
-    if (used[i] && representative[i] == i)
-    {
-      mesh.vertex_of_point[i] = static_cast<Index>(vertices.size());
-      vertices.push_back(i);
-    }
-  }
-  mesh.domain.points.resize(static_cast<Index>(vertices.size()), 3);
-  for (std::size_t v = 0; v < vertices.size(); ++v)
-  {
-    mesh.domain.points.row(static_cast<Index>(v)) = target.points.row(vertices[v]);
-  }
-  for (Index i = 0; i < n; ++i)
-  {
-    mesh.vertex_of_point[i] = used[i] ? mesh.vertex_of_point[representative[i]] : -1;
-  }
-  mesh.domain.triangles.resize(static_cast<Index>(kept.size()), 3);
-  for (Index f = 0; f < mesh.domain.triangles.rows(); ++f)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      mesh.domain.triangles(f, k) = mesh.vertex_of_point[target.triangles(kept[f], k)];
-    }
-  }
-}
-
-Status make_solved_mesh(const Domain& target, const SurfaceMatch& match, SolvedMesh& mesh)
-{
-  const Index n = target.points.rows();
-  mesh.vertex_of_point.assign(static_cast<std::size_t>(n), -1);
-  if (target.is_volume())
-  {
-    const Status status = check_domain(target);
-    if (!status.ok())
-    {
-      return status;
-    }
-    mesh.domain = target;
-    std::iota(mesh.vertex_of_point.begin(), mesh.vertex_of_point.end(), Index(0));
-  }
-  else
-  {
-    merge_surface(target, mesh);
-  }
-  mesh.parts = connected_components(mesh.domain);
-  mesh.matched.assign(static_cast<std::size_t>(mesh.domain.points.rows()), 0);
-  mesh.point_of_vertex.assign(mesh.matched.size(), -1);
-  for (Index i = 0; i < n; ++i)
-  {
-    const Index v = mesh.vertex_of_point[i];
-    if (v >= 0 && (mesh.point_of_vertex[v] < 0 || (match.matched[i] && !mesh.matched[v])))
-    {
-      mesh.point_of_vertex[v] = i;
-      mesh.matched[v] = match.matched[i];
-    }
-  }
-  return {};
-}
-
 /// Set all but the `most` largest positive entries of a row to 0, and scale the others to the same
 /// sum. If entries are equal, those with lower indices are kept. Negative entries do not count as
 /// weights; they are set to 0 if the row has too many positive ones.
@@ -189,12 +94,7 @@ SparseMatrix biharmonic_energy(const SolvedMesh& mesh, bool uniform)
 {
   if (!uniform)
   {
-    std::vector<char> used(mesh.matched.size());
-    for (std::size_t v = 0; v < used.size(); ++v)
-    {
-      used[v] = mesh.parts.component_of_vertex[v] >= 0;
-    }
-    const ScaledMesh scaled = scale_mesh(mesh.domain, used);
+    const ScaledMesh scaled = scale_mesh(mesh);
     return harmonic_energy(scaled.stiffness, scaled.mass, 2);
   }
   const VertexGraph graph = vertex_graph(mesh.domain);

@@ -1,0 +1,33 @@
+#ifndef bindpose_transfer_solved_mesh_h
+#define bindpose_transfer_solved_mesh_h
+
+#include "domain/scaled_mesh.h"
+#include "transfer/surface_match.h"
+
+#include <vector>
+
+namespace bindpose
+{
+
+/// The mesh on which inpaint_weights() solves the rows. Points of a surface at the same position
+/// are one vertex.
+struct SolvedMesh
+{
+  Domain domain;
+  /// #points; -1: the point of a surface is in no triangle with an area
+  std::vector<Index> vertex_of_point;
+  std::vector<Index> point_of_vertex; ///< one of the points at each vertex; a matched one, if any
+  std::vector<char> matched; ///< #V: 1 if one of the points at the vertex matches
+  Components parts;
+};
+
+/// Make the mesh of a target. Triangles of a surface whose corners are collinear are left out.
+/// Return invalid_input if check_domain() refuses a target of tets.
+Status make_solved_mesh(const Domain& target, const SurfaceMatch& match, SolvedMesh& mesh);
+
+/// Scale the mesh by scale_mesh(). Only vertices of parts are in the bounding box.
+ScaledMesh scale_mesh(const SolvedMesh& mesh);
+
+} // namespace bindpose
+
+#endif

@@ -96,6 +96,11 @@ void vtkTransferWeights::SetMaximumAngle(double degrees)
   this->SetBindParameter(this->MaximumAngle, degrees);
 }
 
+void vtkTransferWeights::SetSmallestGroup(double fraction)
+{
+  this->SetBindParameter(this->SmallestGroup, fraction);
+}
+
 void vtkTransferWeights::SetMaximumInfluences(int influences)
 {
   this->SetBindParameter(this->MaximumInfluences, influences);
@@ -261,6 +266,7 @@ Status vtkTransferWeights::Inpaint(
   InpaintOptions options;
   options.match.maximum_distance = this->MaximumDistance;
   options.match.maximum_angle = this->MaximumAngle;
+  options.smallest_group = this->SmallestGroup;
   options.maximum_influences = this->MaximumInfluences;
   options.smoothing_steps = this->SmoothingSteps;
   InpaintedWeights result;
@@ -289,6 +295,7 @@ void vtkTransferWeights::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Method: " << this->Method << "\n";
   os << indent << "MaximumDistance: " << this->MaximumDistance << "\n";
   os << indent << "MaximumAngle: " << this->MaximumAngle << "\n";
+  os << indent << "SmallestGroup: " << this->SmallestGroup << "\n";
   os << indent << "MaximumInfluences: " << this->MaximumInfluences << "\n";
   os << indent << "SmoothingSteps: " << this->SmoothingSteps << "\n";
   os << indent << "NumberOfBinds: " << this->NumberOfBinds << "\n";

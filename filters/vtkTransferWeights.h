@@ -12,10 +12,10 @@
  *
  * Use the method INPAINT if the target is a different surface, such as clothes over a body. Points
  * that match the surface of the mesh by distance and normal get the weights of its nearest point.
- * The weights of all other points are solved for: the smoothest weights from 0 to 1 that agree with
- * the matched points, with a certificate (see inpaint_weights). Parts that are near each other but
- * not connected, such as a sleeve and the side of the body, do not exchange weights. The target
- * must have triangles or tets.
+ * The weights of all other points are solved for: the smoothest weights that agree with the matched
+ * points within their bounds, with a certificate (see inpaint_weights). Parts that are near
+ * each other but not connected, such as a sleeve and the side of the body, do not exchange weights.
+ * The target must have triangles or tets.
  *
  * **Input 0**: the target, any vtkPointSet. **Input 1**: the mesh with the point array `Weights`
  * (see vtkWeightsAlgorithm). **Output**: input 0 with a double point array of the same name and
@@ -98,6 +98,14 @@ public:
   ///@}
 
   ///@{
+  /// INPAINT: smallest area of a group of matched points that are connected by edges, from 0 to 1,
+  /// as a fraction of the largest group in the same part of the target. Points of smaller groups
+  /// count as unmatched. Default 0.01. At 0, all groups count.
+  void SetSmallestGroup(double fraction);
+  double GetSmallestGroup() { return this->SmallestGroup; }
+  ///@}
+
+  ///@{
   /// INPAINT: largest number of weights above 0 at a point. The largest weights are kept. Default
   /// 0: the largest number at a point of the mesh.
   void SetMaximumInfluences(int influences);
@@ -158,6 +166,7 @@ private:
   int Method = NEAREST;
   double MaximumDistance = 0.05;
   double MaximumAngle = 30.0;
+  double SmallestGroup = 0.01;
   int MaximumInfluences = 0;
   int SmoothingSteps = 0;
   int NumberOfBinds = 0;

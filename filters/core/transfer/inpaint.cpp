@@ -53,14 +53,10 @@ struct SourceRows
 {
   bool sum_to_one = true; ///< whether all rows that are not zero sum to one, within 1 %
   Index maximum_influences = 1; ///< the largest number of weights above 0 in a row, at least 1
-  Eigen::RowVectorXd lower; ///< smallest value of each column, or 0 if that is less
-  Eigen::RowVectorXd upper; ///< largest value of each column, or 1 if that is more
 };
 
 Status find_source_rows(const Triangles& triangles, WeightsView values, SourceRows& rows)
 {
-  rows.lower = Eigen::RowVectorXd::Zero(values.cols());
-  rows.upper = Eigen::RowVectorXd::Ones(values.cols());
   std::vector<char> used(static_cast<std::size_t>(values.rows()), 0);
   for (Index i = 0; i < triangles.size(); ++i)
   {
@@ -82,8 +78,6 @@ Status find_source_rows(const Triangles& triangles, WeightsView values, SourceRo
       (values.row(v).isZero(0.0) || std::abs(values.row(v).sum() - 1.0) <= sum_tolerance);
     rows.maximum_influences =
       std::max<Index>(rows.maximum_influences, (values.row(v).array() > 0.0).count());
-    rows.lower = rows.lower.cwiseMin(values.row(v));
-    rows.upper = rows.upper.cwiseMax(values.row(v));
   }
   return {};
 }
@@ -232,8 +226,9 @@ private:
     this->rows_before_solve_ = this->rows_;
   }
 
-  /// Make the quadratic program of a column. Where all given values of a part are equal, within the
-  /// tolerance, its free vertices are pinned to this value.
+  /// Make the quadratic program of a column. The bounds of a part are its smallest and its largest
+  /// given value. If they are equal, within the tolerance, its free vertices are pinned to this
+  /// value.
   BoxQpColumn make_column(Index column) const
   {
     const auto n = static_cast<Index>(this->free_.size());
@@ -256,6 +251,8 @@ private:
       }
     }
     std::vector<double> pinned_values;
+    result.bounds.lower = Eigen::VectorXd::Zero(n);
+    result.bounds.upper = Eigen::VectorXd::Ones(n);
     for (Index v = 0; v < n; ++v)
     {
       if (!this->free_[v])
@@ -270,15 +267,13 @@ private:
       {
         result.pinned.push_back(v);
         pinned_values.push_back(excluded ? 0.0 : 0.5 * (lowest[part] + highest[part]));
+        continue;
       }
+      result.bounds.lower[v] = lowest[part];
+      result.bounds.upper[v] = highest[part];
     }
     result.pinned_values =
       Eigen::Map<Eigen::VectorXd>(pinned_values.data(), static_cast<Index>(pinned_values.size()));
-    if (this->source_.lower[column] < 0.0 || this->source_.upper[column] > 1.0)
-    {
-      result.bounds.lower = Eigen::VectorXd::Constant(n, this->source_.lower[column]);
-      result.bounds.upper = Eigen::VectorXd::Constant(n, this->source_.upper[column]);
-    }
     return result;
   }
 
@@ -554,6 +549,12 @@ Status check_inputs(
       std::to_string(options.maximum_influences) + " and " +
       std::to_string(options.smoothing_steps) + ")");
   }
+  if (!(options.smallest_group >= 0.0 && options.smallest_group <= 1.0))
+  {
+    return Status::invalid_input(
+      "the size of the smallest group must be a fraction from 0 to 1 (got " +
+      std::to_string(options.smallest_group) + ")");
+  }
   if (!(options.tolerance > 0.0 && options.tolerance < 1.0) || options.maximum_iterations < 1)
   {
     return Status::invalid_input(
@@ -606,6 +607,7 @@ void report_result(const SolvedMesh& mesh, const Inpainter& inpainter,
   report.set("counts.matched", matched);
   report.set("counts.inpainted", inpainted);
   report.set("counts.nearest", n - matched - inpainted);
+  report.set("counts.small_groups", mesh.small_group_count);
   report.set("counts.unmatched_parts", inpainter.part_count_without_match());
   report.set("matched_fraction", static_cast<double>(matched) / static_cast<double>(n));
   report.set("relative_gap", gap);
@@ -648,7 +650,7 @@ Status inpaint_weights(ExecutionContext& context, const Domain& source, WeightsV
   }
   SolvedMesh mesh;
   const Phase phase(context, "inpaint", 0.2, 1.0);
-  status = status.ok() ? make_solved_mesh(target, match, mesh) : status;
+  status = status.ok() ? make_solved_mesh(target, match, options.smallest_group, mesh) : status;
   if (!status.ok())
   {
     return status;

@@ -11,6 +11,11 @@ namespace bindpose
 struct InpaintOptions
 {
   SurfaceMatchOptions match;
+  /// Matched points that are connected by edges are a group. A group counts as unmatched if its
+  /// area (or volume) is less than this fraction (0 … 1) of the largest group in its part of the
+  /// target. 0: all groups match. Small groups arise where the target is near another part of the
+  /// source.
+  double smallest_group = 0.01;
   /// Largest number of weights above 0 in a row; 0: the largest number in a row of the source.
   Index maximum_influences = 0;
   /// Number (>= 0) of smoothing steps after the solve; 0: no smoothing. In each step, a row becomes
@@ -37,27 +42,29 @@ struct InpaintedWeights
 /// Transfer weights from a mesh to another surface: copy them where the surfaces match, and inpaint
 /// the rest. The rows of matched points (see match_surface) are interpolated in the source. All
 /// other rows are solved for: they minimize the biharmonic energy of the target with the matched
-/// rows as fixed values, within the bounds 0 and 1. The certificates are those of BoxQp. Points of
-/// a target surface at the same position are one vertex of the solve, so a surface may be cut along
-/// texture seams. Their normals are computed per point, so a cut can change which points match. If
-/// a connected part of the target has no match, its points get the row at the nearest point of the
-/// source. The same applies to points in no triangle. A point whose nearest row is zero does not
-/// match.
+/// rows as fixed values. In each column, they are bounded by the smallest and the largest fixed
+/// value of their part, before rows are divided by their sums: without bounds, the slope at the
+/// edge of the matched points would continue, and the inner side of a shell would follow another
+/// handle than its outer side. The certificates are those of BoxQp. Points of a target surface at
+/// the same position are one vertex of the solve, so a surface may be cut along texture seams.
+/// Their normals are computed per point, so a cut can change which points match. If a connected
+/// part of the target has no match, its points get the row at the nearest point of the source. The
+/// same applies to points in no triangle. A point whose nearest row is zero does not match, nor
+/// does a point in a small group.
 ///
 /// If the rows of the source sum to one (within 1 %), the inpainted rows are divided by their sums.
-/// If the source has values outside of 0 … 1, these values extend the bounds of their column. If a
-/// row has more than `maximum_influences` weights, its largest weights are kept and scaled to the
-/// same sum; for solved rows, all columns are then solved again with the other weights fixed at 0.
-/// If the sum of a solved row is near 0, the row that selected these weights is used.
-/// If the cotangent energy cannot be factored because of extremely thin triangles, the energy of
-/// uniform edge weights is used instead, with a warning.
+/// If a row has more than `maximum_influences` weights, its largest weights are kept and scaled to
+/// the same sum; for solved rows, all columns are then solved again with the other weights fixed at
+/// 0. If the sum of a solved row is near 0, the row that selected these weights is used. If the
+/// cotangent energy cannot be factored because of extremely thin triangles, the energy of uniform
+/// edge weights is used instead, with a warning.
 ///
-/// Report: transfer ("inpaint"), counts.matched, counts.inpainted, counts.unmatched_parts,
-/// counts.nearest (points that get the nearest row), matched_fraction, relative_gap, kkt_residual,
-/// row_sum_error (of the first solution, before rows are divided by their sums), iterations,
-/// maximum_influences.
-/// Return not_converged if a certificate exceeds the tolerance, and invalid_input for unusable
-/// meshes, weights or options. Progress phases "match" and "inpaint".
+/// Report: transfer ("inpaint"), counts.matched, counts.inpainted, counts.small_groups,
+/// counts.unmatched_parts, counts.nearest (points that get the nearest row), matched_fraction,
+/// relative_gap, kkt_residual, row_sum_error (of the first solution, before rows are divided by
+/// their sums), iterations, maximum_influences. Return not_converged if a certificate exceeds the
+/// tolerance, and invalid_input for unusable meshes, weights or options. Progress phases "match"
+/// and "inpaint".
 ///
 /// Cost: a match per point, and a few factorizations of the biharmonic energy of the inpainted
 /// vertices per column that is not constant.

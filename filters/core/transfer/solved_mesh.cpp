@@ -4,6 +4,7 @@
 #include "surface/triangle_predicates.h"
 #include "surface/vertex_order.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace bindpose
@@ -58,9 +59,70 @@ void merge_surface(const Domain& target, SolvedMesh& mesh)
     }
   }
 }
+
+/// Clear `matched` in groups that are smaller than `smallest_group` times the largest group in
+/// their part.
+void clear_small_groups(double smallest_group, SolvedMesh& mesh)
+{
+  struct Group
+  {
+    std::vector<Index> vertices;
+    double size = 0.0;
+    Index part = 0;
+  };
+  std::vector<char> waiting(mesh.matched.size());
+  for (std::size_t v = 0; v < waiting.size(); ++v)
+  {
+    waiting[v] = mesh.matched[v] && mesh.parts.component_of_vertex[v] >= 0;
+  }
+  const Eigen::VectorXd sizes = scale_mesh(mesh).mass;
+  const VertexGraph graph = vertex_graph(mesh.domain);
+  std::vector<Group> groups;
+  std::vector<double> largest(static_cast<std::size_t>(mesh.parts.count), 0.0); // of each part
+  for (std::size_t first = 0; first < waiting.size(); ++first)
+  {
+    if (!waiting[first])
+    {
+      continue;
+    }
+    Group group;
+    group.part = mesh.parts.component_of_vertex[first];
+    group.vertices.push_back(static_cast<Index>(first));
+    waiting[first] = 0;
+    for (std::size_t i = 0; i < group.vertices.size(); ++i)
+    {
+      const Index v = group.vertices[i];
+      group.size += sizes[v];
+      for (Index k = graph.begin[v]; k < graph.begin[v + 1]; ++k)
+      {
+        const Index other = graph.neighbors[k];
+        if (waiting[other])
+        {
+          waiting[other] = 0;
+          group.vertices.push_back(other);
+        }
+      }
+    }
+    largest[group.part] = std::max(largest[group.part], group.size);
+    groups.push_back(std::move(group));
+  }
+  for (const Group& group : groups)
+  {
+    if (group.size >= smallest_group * largest[group.part])
+    {
+      continue;
+    }
+    ++mesh.small_group_count;
+    for (const Index v : group.vertices)
+    {
+      mesh.matched[v] = 0;
+    }
+  }
+}
 } // namespace
 
-Status make_solved_mesh(const Domain& target, const SurfaceMatch& match, SolvedMesh& mesh)
+Status make_solved_mesh(
+  const Domain& target, const SurfaceMatch& match, double smallest_group, SolvedMesh& mesh)
 {
   const Index n = target.points.rows();
   mesh.vertex_of_point.assign(static_cast<std::size_t>(n), -1);
@@ -89,6 +151,10 @@ Status make_solved_mesh(const Domain& target, const SurfaceMatch& match, SolvedM
       mesh.point_of_vertex[v] = i;
       mesh.matched[v] = match.matched[i];
     }
+  }
+  if (smallest_group > 0.0 && mesh.parts.count > 0)
+  {
+    clear_small_groups(smallest_group, mesh);
   }
   return {};
 }

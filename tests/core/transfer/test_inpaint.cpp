@@ -203,8 +203,7 @@ TEST(Inpaint, SolvedRowsAreOptimal)
   Weights values(sphere.points.rows(), 2);
   for (Index v = 0; v < values.rows(); ++v)
   {
-    // The values rise to almost 1 at the edge of the matched part, so that the bounds become
-    // active.
+    // The values rise towards the edge of the matched part, so that the bounds become active.
     values(v, 0) = std::clamp((1.0 - sphere.points(v, 2)) / 0.7, 0.0, 1.0);
     values(v, 1) = 1.0 - values(v, 0);
   }
@@ -218,6 +217,14 @@ TEST(Inpaint, SolvedRowsAreOptimal)
   const SparseMatrix q = harmonic_energy(scaled.stiffness, scaled.mass, 2);
   const Eigen::VectorXd w = result.weights.col(0);
   const Eigen::VectorXd gradient = q * w;
+  double lowest = 1.0, highest = 0.0; // of the matched weights: the bounds of the others
+  for (Index v = 0; v < w.size(); ++v)
+  {
+    lowest = result.matched[v] ? std::min(lowest, w[v]) : lowest;
+    highest = result.matched[v] ? std::max(highest, w[v]) : highest;
+  }
+  EXPECT_EQ(lowest, 0.0);
+  EXPECT_LT(highest, 1.0);
   Index at_bounds = 0;
   for (Index v = 0; v < w.size(); ++v)
   {
@@ -225,9 +232,11 @@ TEST(Inpaint, SolvedRowsAreOptimal)
     {
       continue;
     }
+    EXPECT_GE(w[v], lowest) << v;
+    EXPECT_LE(w[v], highest) << v;
     const double slope = gradient[v] / q.coeff(v, v);
-    at_bounds += w[v] == 0.0 || w[v] == 1.0;
-    EXPECT_NEAR(w[v], std::clamp(w[v] - slope, 0.0, 1.0), 2e-6) << v;
+    at_bounds += w[v] == lowest || w[v] == highest;
+    EXPECT_NEAR(w[v], std::clamp(w[v] - slope, lowest, highest), 2e-6) << v;
   }
   EXPECT_GT(at_bounds, 0);
 }
@@ -315,6 +324,92 @@ TEST(Inpaint, TheNumberOfInfluencesIsKept)
   }
 }
 
+TEST(Inpaint, TheInnerSideOfAShellFollowsItsOuterSide)
+{
+  // A cuff with an inner and an outer side around the middle of a limb, where weights change with
+  // height. The inner side has opposite normals, so it does not match.
+  const TriangleMesh limb = tube(0.0, 0.5, 4.0, 24, 40);
+  Weights values(limb.points.rows(), 2);
+  values.col(0) = (limb.points.col(2).array() / 4.0).matrix();
+  values.col(1) = (1.0 - values.col(0).array()).matrix();
+  constexpr int sides = 24, rings = 8;
+  constexpr Index side = (rings + 1) * sides; // points of one side
+  const TriangleMesh inner = test::flipped(tube(0.0, 0.55, 1.0, sides, rings));
+  TriangleMesh cuff = test::join(tube(0.0, 0.6, 1.0, sides, rings), inner);
+  const Index f = cuff.triangles.rows();
+  cuff.triangles.conservativeResize(f + 4 * sides, Eigen::NoChange);
+  for (Index s = 0; s < sides; ++s)
+  {
+    const Index next = (s + 1) % sides, top = rings * sides;
+    cuff.triangles.row(f + 4 * s) << next, s, s + side;
+    cuff.triangles.row(f + 4 * s + 1) << next, s + side, next + side;
+    cuff.triangles.row(f + 4 * s + 2) << top + s, top + next, top + side + s;
+    cuff.triangles.row(f + 4 * s + 3) << top + next, top + side + next, top + side + s;
+  }
+  cuff.points.col(2).array() += 1.5;
+  const InpaintedWeights result = inpaint(test::to_domain(limb), values, test::to_domain(cuff));
+  EXPECT_EQ(std::count(result.matched.begin() + side, result.matched.end(), 1), 0);
+  double lowest = 1.0, highest = 0.0; // of the matched weights
+  for (Index v = 0; v < side; ++v)
+  {
+    const double w = result.weights(v, 0);
+    lowest = result.matched[v] ? std::min(lowest, w) : lowest;
+    highest = result.matched[v] ? std::max(highest, w) : highest;
+  }
+  EXPECT_GE(lowest, 1.5 / 4.0);
+  EXPECT_LE(highest, 2.5 / 4.0);
+  EXPECT_GE(result.weights.col(0).minCoeff(), lowest - 1e-6);
+  EXPECT_LE(result.weights.col(0).maxCoeff(), highest + 1e-6);
+}
+
+TEST(Inpaint, SmallGroupsDoNotMatch)
+{
+  // A square of 10 x 10 follows handle 0. An island of 2 x 2 in its middle follows handle 1. In a
+  // ring around the island, the normals are flipped, so nothing matches there.
+  TriangleMesh source = test::unwelded(test::grid(20, 20, 10.0, 10.0));
+  Weights values = Weights::Zero(source.points.rows(), 2);
+  for (Index f = 0; f < source.triangles.rows(); ++f)
+  {
+    Vec3 center = Vec3::Zero();
+    for (int k = 0; k < 3; ++k)
+    {
+      center += source.points.row(source.triangles(f, k)).transpose() / 3.0;
+    }
+    const double distance = std::max(std::abs(center.x() - 5.0), std::abs(center.y() - 5.0));
+    for (int k = 0; k < 3; ++k)
+    {
+      values(source.triangles(f, k), distance < 1.0 ? 1 : 0) = 1.0;
+    }
+    if (distance > 1.0 && distance < 2.0)
+    {
+      std::swap(source.triangles(f, 1), source.triangles(f, 2));
+    }
+  }
+  // The group above the island has about 4 / 84 = 0.05 of the area of the other group. If the
+  // target is finer near the island, it has more vertices, but its area is the same.
+  for (const bool finer : { false, true })
+  {
+    TriangleMesh target = test::translated(test::grid(50, 50, 10.0, 10.0), Vec3(0, 0, 0.1));
+    if (finer)
+    {
+      target.points.leftCols(2) =
+        (0.04 * (target.points.leftCols(2).array() - 5.0).cube() + 5.0).matrix();
+    }
+    for (const double smallest : { 0.02, 0.1 })
+    {
+      InpaintOptions options;
+      options.smallest_group = smallest;
+      Report report;
+      const InpaintedWeights result =
+        inpaint(test::to_domain(source), values, test::to_domain(target), options, &report);
+      const bool kept = smallest == 0.02;
+      EXPECT_EQ(result.weights.col(1).maxCoeff(), kept ? 1.0 : 0.0) << finer;
+      EXPECT_EQ(report.number("counts.small_groups", -1), kept ? 0 : 1) << finer;
+      EXPECT_EQ(result.weights.col(0).maxCoeff(), 1.0);
+    }
+  }
+}
+
 TEST(Inpaint, APartWithoutAMatchGetsTheNearestRows)
 {
   const Legs legs;
@@ -356,7 +451,7 @@ TEST(Inpaint, ARigidPieceKeepsItsOneHandle)
   EXPECT_EQ(result.weights.col(1).cwiseAbs().maxCoeff(), 0.0);
 }
 
-TEST(Inpaint, ValuesBeyondOneExtendTheBounds)
+TEST(Inpaint, ValuesBeyondOneAreKept)
 {
   const Legs legs;
   Weights values = legs.values;
@@ -487,4 +582,7 @@ TEST(Inpaint, ErrorsAreOneSentence)
   options = {};
   options.maximum_influences = -1;
   EXPECT_THAT(error_of(legs.domain, legs.values, target, options), HasSubstr("0 or more"));
+  options = {};
+  options.smallest_group = 1.5;
+  EXPECT_THAT(error_of(legs.domain, legs.values, target, options), HasSubstr("from 0 to 1"));
 }

@@ -95,8 +95,7 @@ Status read_picture_bytes(const std::string& uri, const std::string& folder, std
   return read_file(path, bytes);
 }
 
-Status read_gltf_image(
-  const tinygltf::Model& model, int image, const std::string& folder, std::string& bytes)
+std::string_view embedded_image(const tinygltf::Model& model, int image)
 {
   const tinygltf::Image& from = gltf_element(model.images, image, "image");
   if (from.bufferView >= 0)
@@ -109,7 +108,19 @@ Status read_gltf_image(
     {
       throw GltfError("image " + std::to_string(image) + " extends beyond the end of its buffer");
     }
-    bytes.assign(reinterpret_cast<const char*>(data.data()) + view.byteOffset, view.byteLength);
+    return { reinterpret_cast<const char*>(data.data()) + view.byteOffset, view.byteLength };
+  }
+  // parse_gltf() decoded a data URI.
+  return { reinterpret_cast<const char*>(from.image.data()), from.image.size() };
+}
+
+Status read_gltf_image(
+  const tinygltf::Model& model, int image, const std::string& folder, std::string& bytes)
+{
+  bytes = embedded_image(model, image);
+  const tinygltf::Image& from = model.images[static_cast<std::size_t>(image)];
+  if (from.bufferView >= 0)
+  {
     if (picture_format(bytes, "") == "png")
     {
       // Some programs pad views with zeros. A PNG file does not end with a zero.
@@ -117,13 +128,8 @@ Status read_gltf_image(
     }
     return {};
   }
-  if (!from.image.empty()) // parse_gltf() decoded the data URI
-  {
-    bytes.assign(from.image.begin(), from.image.end());
-    return {};
-  }
-  bytes.clear();
-  return is_data_uri(from.uri) ? Status() : read_picture_bytes(from.uri, folder, bytes);
+  return !bytes.empty() || is_data_uri(from.uri) ? Status()
+                                                 : read_picture_bytes(from.uri, folder, bytes);
 }
 
 } // namespace bindpose

@@ -39,6 +39,11 @@ std::string to_data_uri(std::string_view bytes);
 /// of the folder. Return invalid_input if the file cannot be read.
 Status read_picture_bytes(const std::string& uri, const std::string& folder, std::string& bytes);
 
+/// Return the bytes of an image that is in a buffer or in the JSON text. They are empty if it is in
+/// a file, and for a data URI of an unknown type. Throw GltfError if the image does not exist, and
+/// for a range outside of a buffer.
+std::string_view embedded_image(const tinygltf::Model& model, int image);
+
 /// Read the bytes of an image, which is in a buffer, in the JSON text or in a file. Throw GltfError
 /// if the image does not exist, for a range outside of a buffer, and for a file outside of the
 /// folder. Return invalid_input if its file cannot be read. The bytes are empty for a data URI of

@@ -4,6 +4,7 @@
 #include "gltf/gltf_compression.h"
 #include "gltf/gltf_images.h"
 #include "gltf/gltf_model.h"
+#include "gltf/picture_size.h"
 #include "io/text_scanner.h"
 
 #include <algorithm>
@@ -117,12 +118,14 @@ void GltfDocument::embed_images(
     const bool has_data = !old.image.empty(); // parse_gltf() decoded a data URI
     const std::string& name = has_data ? old.name : old.uri;
     std::string bytes(old.image.begin(), old.image.end());
+    check_picture_header(embedded_image(model, static_cast<int>(k)), name);
     if (has_data ? !is_convertible(picture_format(bytes, name))
                  : old.uri.empty() || is_data_uri(old.uri))
     {
       continue;
     }
     const Status status = has_data ? Status() : read_picture_bytes(name, folder, bytes);
+    check_picture_header(bytes, name);
     const std::string type = this->use_format(bytes, name);
     if (has_data && type.empty())
     {

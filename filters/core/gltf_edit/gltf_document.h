@@ -34,7 +34,8 @@ public:
   explicit GltfDocument(ConvertPicture convert = nullptr);
   /// Take over a file that parse_gltf() has accepted. All buffers are joined into one. External
   /// images are read from `folder` and stored in the buffer; those that cannot be read remain
-  /// external, with a warning. Throw GltfError for an image outside of `folder`.
+  /// external, with a warning. Throw GltfError for an image outside of `folder`, and for one that
+  /// is too large (see check_picture_header()).
   GltfDocument(const std::string& content, const tinygltf::Model& model, const std::string& folder,
     std::vector<std::string>& warnings, ConvertPicture convert = nullptr);
 

@@ -1,6 +1,7 @@
 #include "look/gltf_look.h"
 
 #include "gltf/gltf_images.h"
+#include "gltf/picture_size.h"
 #include "io/text_scanner.h"
 
 #include <algorithm>
@@ -308,6 +309,7 @@ private:
       auto& [bytes, format] = this->look_.images[k];
       const Status status =
         read_gltf_image(this->model_, static_cast<int>(k), this->content_.files.folder, bytes);
+      check_picture_header(bytes, name);
       format = picture_format(bytes, name);
       if (!status.ok() || (format != "png" && format != "jpg" && !is_convertible(format)))
       {

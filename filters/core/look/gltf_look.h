@@ -15,7 +15,8 @@ namespace bindpose
 
 /// Read the materials, textures and vertex colors of primitives. Triangles of nodes that mirror
 /// their mesh are flipped, so that their fronts stay outside. Throw GltfError for attributes that
-/// do not match, and for pictures outside of the folder. Pictures that cannot be read are left out,
+/// do not match, for pictures outside of the folder, and for pictures that are too large
+/// (see check_picture_header()). Pictures that cannot be read are left out,
 /// with a warning. All textures of a material use the texture coordinates, and the transform of the
 /// extension KHR_texture_transform, of its first texture in this order: base color, normal,
 /// metallic and roughness, emission, occlusion.

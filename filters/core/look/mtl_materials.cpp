@@ -3,6 +3,7 @@
 #include "look/mtl_materials.h"
 
 #include "gltf/gltf_model.h"
+#include "gltf/picture_size.h"
 #include "io/text_scanner.h"
 
 #define TINYOBJLOADER_IMPLEMENTATION
@@ -142,6 +143,7 @@ private:
     }
     std::string bytes;
     const Status status = read_file(path, bytes);
+    check_picture_header(bytes, name);
     const int id = status.ok() ? this->document_.append_image(bytes, name) : -1;
     if (id < 0)
     {

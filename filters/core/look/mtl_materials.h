@@ -17,12 +17,13 @@ namespace bindpose
 /// pictures map_Kd, map_Ke become the properties of glTF with the same meaning. OBJ files do not
 /// distinguish the sides of a face, so materials are double-sided. A picture is searched at its
 /// path in the folder, then by its file name alone; if it is missing or cannot be read, it is left
-/// out with a warning.
+/// out with a warning. Throw GltfError for a picture outside of the folder, and for one that is too
+/// large (see check_picture_header()).
 /// @param text content of the MTL file
 /// @param folder folder of the MTL file
 /// @param names names of the materials to append
 /// @param ids ids of the materials in the document, by name; those that it contains are not
-/// appended Throw GltfError for a picture outside of the folder.
+/// appended
 void append_mtl_materials(const std::string& text, const std::string& folder,
   const std::vector<std::string>& names, GltfDocument& document, std::map<std::string, int>& ids,
   std::vector<std::string>& warnings);

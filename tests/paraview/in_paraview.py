@@ -154,6 +154,11 @@ def deformation():
     skin = TransferWeights(Input=surface, Mesh=bound)
     sphere = points_of(fetch(skin))
     assert np.array_equal(np.unique(sphere, axis=0), np.unique(points_of(fetch(surface)), axis=0))
+    inpainted = fetch(TransferWeights(Input=surface, Mesh=bound, Method="Match and inpaint")).GetPointData()
+    matched = vtk_to_numpy(inpainted.GetArray("Matched")) == 1
+    nearest, filled = (vtk_to_numpy(data.GetArray("Weights")) for data in (fetch(skin).GetPointData(), inpainted))
+    assert matched.mean() > 0.5 and np.abs(filled - nearest)[matched].max() < 1e-12
+    assert np.abs(filled.sum(axis=1) - 1).max() < 1e-9 and filled.min() >= 0
     posed_handles = PoseHandles(Input=handles)
     posed = {name: globals()[name](Input=bound, Handles=posed_handles)
              for name in ("SkinningDeformation", "ReducedARAP", "FullARAP", "MovingLeastSquaresWarp")}

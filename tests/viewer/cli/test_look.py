@@ -5,6 +5,7 @@ import json
 import struct
 
 import foreign_rig
+import numpy as np
 import pytest
 import shapes
 from gltf_file import GltfFile
@@ -127,6 +128,21 @@ def test_a_lit_texture_and_metal(folder):
     metal = at(render(folder)[0], 0.5, 0.5)
     for red, green, blue in (plastic, metal):
         assert red > 100 and red > 2 * green and red > 2 * blue
+
+
+def test_a_texture_of_metal_and_roughness(folder):
+    """Green is the roughness, blue is the metallic part, and red has no meaning. The same values as factors give the same
+    colors."""
+    red = {"baseColorFactor": [0.8, 0.1, 0.1, 1]}
+    picture = shapes.png(2, 1, lambda x, y: (13, 255, 0, 255) if x == 0 else (200, 102, 255, 255))
+    write_square(folder, {"pbrMetallicRoughness": {**red, "metallicRoughnessTexture": {"index": 0}}}, picture)
+    drawn, _ = render(folder)
+    halves = []
+    for x, metallic, roughness in ((0.25, 0, 1), (0.75, 1, 0.4)):
+        write_square(folder, {"pbrMetallicRoughness": {**red, "metallicFactor": metallic, "roughnessFactor": roughness}})
+        halves.append(at(render(folder)[0], x, 0.5))
+        assert at(drawn, x, 0.5) == pytest.approx(halves[-1], abs=1)
+    assert np.abs(np.subtract(*halves)).max() > 20
 
 
 def test_a_normal_texture_changes_the_shading(folder):

@@ -140,7 +140,7 @@ gltf()
   # (cut.glb), one a chain of a million nodes (chain.glb), for which the validator has no stack.
   local cli="$root/tests/viewer/cli" folder="$build_dir/nightly-gltf"
   command -v npm >/dev/null || install_packages "npm:installs_the_validator_of_glTF_files"
-  rm -rf "$folder" && npm install --silent --no-audit --no-fund --prefix "$build_dir/nightly-npm" gltf-validator@2 &&
+  rm -rf "$folder" && npm install --loglevel error --no-audit --no-fund --prefix "$build_dir/nightly-npm" gltf-validator@2.0.0-dev.3.10 &&
     under_xvfb env PYTHONPATH="$build_dir/lib/python3/dist-packages" BINDPOSE_PROGRAM="$build_dir/bin/bindpose" \
       /usr/bin/python3 -B -m pytest -q -p no:cacheprovider --basetemp "$folder" \
       "$cli/test_assets.py" "$cli/test_look.py" "$cli/test_motions.py" "$cli/test_rigs.py" "$cli/test_transfer.py" &&

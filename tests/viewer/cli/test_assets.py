@@ -309,13 +309,67 @@ def nodes_are_a_cycle(file):
     file["nodes"][2]["children"] = [0]
 
 
+def add_sparse_points(file):
+    """Give the points of a mesh two sparse elements, which are valid. Return the accessor and the size of a view in bytes."""
+    head, text = file["buffers"][0]["uri"].split(",")
+    data = base64.b64decode(text)
+    accessor = file["accessors"][file["meshes"][0]["primitives"][0]["attributes"]["POSITION"]]
+    views = []
+    for part in (struct.pack("<2H", 1, 2), struct.pack("<6f", *accessor["min"], *accessor["max"])):
+        data += b"\0" * (-len(data) % 4)
+        file["bufferViews"].append({"buffer": 0, "byteOffset": len(data), "byteLength": len(part)})
+        views.append(len(file["bufferViews"]) - 1)
+        data += part
+    file["buffers"][0] = {"byteLength": len(data), "uri": f"{head},{base64.b64encode(data).decode()}"}
+    ids, values = ({"bufferView": view} for view in views)
+    accessor["sparse"] = {"count": 2, "indices": {**ids, "componentType": 5123}, "values": values}
+    return accessor, len(part)
+
+
 def sparse_index_is_too_large(file):
-    primitive = file["meshes"][0]["primitives"][0]
-    view = file["accessors"][primitive["indices"]]["bufferView"]
-    accessor = file["accessors"][primitive["attributes"]["POSITION"]]
-    # Two indices of 16 bits, read as one of 32 bits, are larger than the number of vertices.
-    accessor["sparse"] = {"count": 1, "indices": {"bufferView": view, "byteOffset": 4, "componentType": 5125},
-                          "values": {"bufferView": accessor["bufferView"]}}
+    sparse = add_sparse_points(file)[0]["sparse"]
+    sparse["count"], sparse["indices"]["componentType"] = 1, 5125  # two indices of 16 bits are one index of 32 bits
+
+
+def sparse_values_are_beyond_the_view(file):
+    accessor, size = add_sparse_points(file)
+    accessor["sparse"]["values"]["byteOffset"] = size - 12  # one of two points
+
+
+def sparse_values_are_beyond_the_buffer(file):
+    accessor, _ = add_sparse_points(file)
+    view = file["bufferViews"][accessor["bufferView"]]
+    file["bufferViews"].append({**view, "byteOffset": file["buffers"][0]["byteLength"] - 12})
+    accessor["sparse"]["values"]["bufferView"] = len(file["bufferViews"]) - 1
+
+
+def sparse_count_is_larger_than_the_count(file):
+    accessor, _ = add_sparse_points(file)
+    accessor["sparse"]["count"] = accessor["count"] + 1
+
+
+def sparse_count_is_negative(file):
+    add_sparse_points(file)[0]["sparse"]["count"] = -1
+
+
+def sparse_values_have_a_negative_offset(file):
+    add_sparse_points(file)[0]["sparse"]["values"]["byteOffset"] = -4
+
+
+def sparse_indices_have_a_negative_offset(file):
+    add_sparse_points(file)[0]["sparse"]["indices"]["byteOffset"] = -2
+
+
+def sparse_values_have_a_huge_offset(file):
+    add_sparse_points(file)[0]["sparse"]["values"]["byteOffset"] = 2 ** 31 - 4
+
+
+def sparse_indices_have_a_huge_offset(file):
+    add_sparse_points(file)[0]["sparse"]["indices"]["byteOffset"] = 2 ** 31
+
+
+def sparse_view_is_missing(file):
+    add_sparse_points(file)[0]["sparse"]["values"]["bufferView"] = 999
 
 
 def buffer_is_outside(file):
@@ -324,7 +378,14 @@ def buffer_is_outside(file):
 
 @pytest.mark.parametrize("change, words", [
     (matrix_is_nan, ("inverse bind matrices", "finite")), (joint_is_no_node, ("999",)), (nodes_are_a_cycle, ("cycle",)),
-    (sparse_index_is_too_large, ("sparse",)), (buffer_is_outside, ("secret.bin",))])
+    (sparse_index_is_too_large, ("POSITION", "sparse")), (sparse_values_are_beyond_the_view, ("POSITION", "beyond the end")),
+    (sparse_values_are_beyond_the_buffer, ("POSITION", "beyond the end")),
+    (sparse_count_is_larger_than_the_count, ("POSITION", "sparse")), (sparse_count_is_negative, ("POSITION", "sparse")),
+    (sparse_values_have_a_negative_offset, ("POSITION", "sparse")),
+    (sparse_indices_have_a_negative_offset, ("POSITION", "sparse")),
+    (sparse_values_have_a_huge_offset, ("POSITION", "beyond the end")),
+    (sparse_indices_have_a_huge_offset, ("POSITION", "sparse")), (sparse_view_is_missing, ("buffer view 999",)),
+    (buffer_is_outside, ("secret.bin",))])
 def test_bad_assets_are_one_sentence(character, change, words):
     character.path.parent.joinpath("secret.bin").write_bytes(bytes(100000))
     file = json.loads((character / "c.gltf").read_text())
@@ -332,6 +393,14 @@ def test_bad_assets_are_one_sentence(character, change, words):
     character.write("bad.gltf", json.dumps(file))
     character.run("rig", "bad.gltf", "-o", "out.glb").is_refused("bad.gltf", *words)
     assert not (character / "out.glb").exists()
+
+
+def test_sparse_points_are_read(character):
+    """Check the file from which the previous test makes files with sparse values out of range."""
+    file = json.loads((character / "c.gltf").read_text())
+    add_sparse_points(file)
+    character.write("good.gltf", json.dumps(file))
+    character.run("rig", "good.gltf", "-o", "out.glb", "--handles", "auto:2", "--domain", "surface").is_good()
 
 
 def test_a_chain_of_a_million_nodes(folder):

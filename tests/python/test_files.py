@@ -1,5 +1,6 @@
 """Files in the Python package: round trips, and errors as exceptions."""
 
+import json
 import warnings
 
 import bindpose
@@ -53,8 +54,12 @@ def test_rigs(tmp_path):
         bindpose.write_rig(mesh, tmp_path / "h.tgf", tmp_path / "rig.glb", animation="shapes")
 
 
-def test_a_character_comes_back_with_its_poses(tmp_path):
-    foreign_rig.write_foreign_rig(tmp_path / "c.gltf", animations=24, fingers=12)
+@pytest.mark.parametrize("options, joint_count", [
+    ({"fingers": 12}, 44), ({"fingers": 20, "interpolation": "CUBICSPLINE"}, 60),
+    ({"fingers": 15, "interpolation": "STEP", "morph_targets": 3}, 50)], ids=["linear", "cubic", "step and morph"])
+def test_a_character_comes_back_with_its_poses(tmp_path, options, joint_count):
+    """Compare the poses of 24 animations at their keys and between them. GltfFile evaluates them without Bindpose."""
+    foreign_rig.write_foreign_rig(tmp_path / "c.gltf", animations=24, **options)
     (tmp_path / "skin.png").write_bytes(shapes.png(1, 1, lambda x, y: (0, 0, 0, 255)))
     before = GltfFile(tmp_path / "c.gltf")
     mesh, joints = bindpose.read_asset(tmp_path / "c.gltf")
@@ -62,20 +67,49 @@ def test_a_character_comes_back_with_its_poses(tmp_path):
     assert points_of(mesh) == pytest.approx(rest, abs=1e-5)  # the scales of the nodes are uneven
     of_file = [before.json["nodes"][joint]["name"] for joint in before.json["skins"][0]["joints"]]
     names = [joints.GetCellData().GetAbstractArray("HandleName").GetValue(k) for k in range(joints.GetNumberOfCells())]
-    assert len(names) >= 40 and len(before.json["meshes"]) >= 10
+    assert len(names) == joint_count and len(before.json["meshes"]) >= 10
     weights = np.concatenate([before.weights(k) for k in range(len(before.json["meshes"]))])
     add_point_array(mesh, "Weights", weights[:, [of_file.index(name) for name in names]], names)
     report = bindpose.write_rig(mesh, joints, tmp_path / "out.glb", asset=tmp_path / "c.gltf")
     assert report["kept_joints"] == "yes" and "losses" not in report
     after = GltfFile(tmp_path / "out.glb")
     diagonal = np.linalg.norm(np.ptp(rest, axis=0))
-    errors, moves = [], []
     for animation in range(24):
-        for key in range(5):
-            posed = before.skinned_points(animation, key)
-            moves.append(np.abs(posed - rest).max())
-            errors.append(np.abs(after.skinned_points(animation, key) - posed).max())
-    assert max(moves) > 0.1 * diagonal and max(errors) <= 1e-6 * diagonal
+        keys = before.key_times(animation)
+        times = np.concatenate([keys, keys[:-1] + (0.1 + 0.03 * animation) * np.diff(keys)])
+        posed = [before.skinned_points(animation, time) for time in times]
+        assert np.abs(posed - rest).max() > 0.1 * diagonal
+        errors = [np.abs(after.skinned_points(animation, time) - points).max() for time, points in zip(times, posed)]
+        assert max(errors) <= 1e-6 * diagonal
+
+
+def test_interpolation_of_gltf_files(tmp_path):
+    """Check the evaluation of animations that other tests use: exact values between keys, and clamped ends."""
+    def sampled(interpolation, path, rows, time):
+        buffer = foreign_rig.Buffer()
+        sampler = {"input": buffer.add([1.0, 3.0], "SCALAR"), "output": buffer.add(rows, f"VEC{len(rows[0])}"),
+                   "interpolation": interpolation}
+        (tmp_path / "a.gltf").write_text(json.dumps(buffer.complete({})))
+        return GltfFile(tmp_path / "a.gltf").sampled(sampler, path, time)
+
+    def cube(t):
+        return [t ** 3, 1 - t, t ** 2]
+
+    def slope(t):
+        return [3 * t ** 2, -1, 2 * t]
+
+    hermite = [slope(1), cube(1), slope(1), slope(3), cube(3), slope(3)]
+    for time in (1, 1.5, 2.75, 3):
+        assert sampled("CUBICSPLINE", "translation", hermite, time) == pytest.approx(cube(time), abs=1e-6)
+        assert sampled("LINEAR", "translation", [cube(1), cube(3)], time) == pytest.approx(
+            [26 * (time - 1) / 2 + 1, 1 - time, 4 * time - 3], abs=1e-6)
+        assert sampled("STEP", "scale", [cube(1), cube(3)], time) == pytest.approx(cube(1 if time < 3 else 3))
+        # Quaternions with opposite signs are the same rotation; the shorter path is the one with 0.6 radians.
+        turn = sampled("LINEAR", "rotation", [[0, 0, 0, 1], [-np.sin(0.3), 0, 0, -np.cos(0.3)]], time)
+        assert 2 * np.arctan2(turn[0], turn[3]) % (2 * np.pi) == pytest.approx(0.6 * (time - 1) / 2, abs=1e-6)
+    for interpolation, rows in (("CUBICSPLINE", hermite), ("LINEAR", [cube(1), cube(3)]), ("STEP", [cube(1), cube(3)])):
+        assert sampled(interpolation, "translation", rows, 0) == pytest.approx(cube(1))
+        assert sampled(interpolation, "translation", rows, 9) == pytest.approx(cube(3))
 
 
 def test_assets(tmp_path):

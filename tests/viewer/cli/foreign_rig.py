@@ -100,9 +100,21 @@ def _weights(names, joint, vertex, fingers):
     return [names.index(joint), 0, 0, 0], [1.0, 0.0, 0.0, 0.0]
 
 
-def write_foreign_rig(path, animations=76, keys=5, placeholder=False, fingers=0):
+def _with_tangents(rows, interpolation):
+    """Return the values of a sampler. For CUBICSPLINE, each key has an in-tangent and an out-tangent, which differ."""
+    if interpolation != "CUBICSPLINE":
+        return rows
+    result = []
+    for k, row in enumerate(rows):
+        slopes = [(-1) ** (k + c) * (2.0 + c) for c in range(len(row))]
+        result += [slopes, row, [1.5 * slope for slope in slopes]]
+    return result
+
+
+def write_foreign_rig(path, animations=76, keys=5, placeholder=False, fingers=0, interpolation="LINEAR", morph_targets=0):
     """Write the character as text (.gltf) with embedded binary data. If `placeholder` is true, all vertices belong to
-    hips. Each hand has `fingers` more joints.
+    hips. Each hand has `fingers` more joints. `interpolation` is that of the joints. Each mesh has `morph_targets` targets,
+    whose weights are animated by LINEAR interpolation.
     """
     all_joints = JOINTS + _fingers(fingers)
     names = [name for name, _, _ in all_joints]
@@ -128,22 +140,31 @@ def write_foreign_rig(path, animations=76, keys=5, placeholder=False, fingers=0)
                 "WEIGHTS_0": buffer.add([weights for _, weights in rows], "VEC4")},
             "indices": buffer.add([x for t in triangles for x in t], "SCALAR", "H"),
             "material": k % 2}
+        if morph_targets:
+            shifts = [[[0.2 * x * ((v + target) % 3) for x in p] for v, p in enumerate(points)] for target in range(morph_targets)]
+            primitive["targets"] = [{"POSITION": buffer.add(rows, "VEC3")} for rows in shifts]
         meshes.append({"name": name, "primitives": [primitive]})
         nodes.append({"name": f"{name} mesh", "mesh": k, "skin": 0})
     nodes.append({"name": "camera", "camera": 0})
     times = buffer.add([k / 24 for k in range(keys)], "SCALAR")
-    scales = buffer.add([list(UNEVEN)] * keys, "VEC3")
+    scales = buffer.add(_with_tangents([list(UNEVEN)] * keys, interpolation), "VEC3")
+    morph_weights = buffer.add([abs(math.sin(k + 1)) for k in range(keys * morph_targets)], "SCALAR") if morph_targets else None
     tracks = []
     for swing in (0.2, 0.4):
         half = [0.5 * swing * math.sin(2 * math.pi * k / (keys - 1)) for k in range(keys)]
-        tracks.append(buffer.add([[math.sin(h), 0.0, 0.0, math.cos(h)] for h in half], "VEC4"))
+        turns = [[math.sin(h), 0.0, 0.0, math.cos(h)] for h in half]
+        tracks.append(buffer.add(_with_tangents(turns, interpolation), "VEC4"))
     motions = []
     for which in range(animations):
         samplers, channels = [], []
         for node in range(len(all_joints)):
             for values, target in ((tracks[(which + node) % 2], "rotation"), (scales, "scale")):
                 channels.append({"sampler": len(samplers), "target": {"node": node, "path": target}})
-                samplers.append({"input": times, "output": values, "interpolation": "LINEAR"})
+                samplers.append({"input": times, "output": values, "interpolation": interpolation})
+        for node in range(len(all_joints), len(all_joints) + len(meshes) if morph_targets else 0):
+            channels.append({"sampler": len(samplers), "target": {"node": node, "path": "weights"}})
+        if morph_targets:
+            samplers.append({"input": times, "output": morph_weights, "interpolation": "LINEAR"})
         motions.append({"name": f"Motion {which}", "samplers": samplers, "channels": channels})
     file = {
         "asset": {"version": "2.0", "generator": "another program"}, "scene": 0,

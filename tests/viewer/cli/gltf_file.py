@@ -10,6 +10,15 @@ NUMBERS = {5121: "u1", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 COMPONENTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 
 
+def slerp(p, q, u):
+    """Return the rotation between two unit quaternions on the shorter path."""
+    q = q if p @ q >= 0 else -q
+    angle = np.arccos(min(1.0, p @ q))
+    if angle < 1e-6:
+        return (1 - u) * p + u * q
+    return (np.sin((1 - u) * angle) * p + np.sin(u * angle) * q) / np.sin(angle)
+
+
 class GltfFile:
     """A .glb file, or a .gltf file with its buffer as base64 text."""
 
@@ -77,24 +86,58 @@ class GltfFile:
             waiting += [(child, matrices[node]) for child in values.get("children", [])]
         return matrices
 
-    def skinned_points(self, animation=None, key=0):
-        """Return the vertices of all skinned meshes, in the order of the nodes, at a key of an animation or at rest."""
-        moved = {}
-        if animation is not None:
-            motion = self.json["animations"][animation]
-            moved = {(channel["target"]["node"], channel["target"]["path"]):
-                     self.numbers(motion["samplers"][channel["sampler"]]["output"])[key] for channel in motion["channels"]}
+    def key_times(self, animation):
+        """Return the times of all keys of an animation, in seconds."""
+        samplers = self.json["animations"][animation]["samplers"]
+        return np.unique(np.concatenate([self.numbers(sampler["input"]).ravel() for sampler in samplers])).astype(float)
+
+    def sampled(self, sampler, path, time):
+        """Return the value of an animated property at a time, as glTF defines it."""
+        times, values = self.numbers(sampler["input"]).ravel().astype(float), self.numbers(sampler["output"]).astype(float)
+        cubic = sampler.get("interpolation", "LINEAR") == "CUBICSPLINE"
+        values = values.reshape(len(times), 3 if cubic else 1, -1)  # key; in-tangent, value and out-tangent; component
+        key = max(0, np.searchsorted(times, time, side="right") - 1)
+        after = min(key + 1, len(times) - 1)
+        length = times[after] - times[key]
+        u = max(0.0, (time - times[key]) / length) if length > 0 else 0.0
+        if cubic:
+            (_, p, out_slope), (in_slope, q, _) = values[key], values[after]
+            value = ((2 * u ** 3 - 3 * u ** 2 + 1) * p + length * (u ** 3 - 2 * u ** 2 + u) * out_slope
+                     + (3 * u ** 2 - 2 * u ** 3) * q + length * (u ** 3 - u ** 2) * in_slope)
+        elif sampler.get("interpolation") == "STEP":
+            value = values[key, 0]
+        elif path == "rotation":
+            value = slerp(values[key, 0], values[after, 0], u)
+        else:
+            value = (1 - u) * values[key, 0] + u * values[after, 0]
+        return value / np.linalg.norm(value) if path == "rotation" else value
+
+    def skinned_points(self, animation=None, time=0.0):
+        """Return the vertices of all skinned meshes, in the order of the nodes, at a time of an animation or at rest."""
+        moved, known = {}, {}
+        motion = {"channels": []} if animation is None else self.json["animations"][animation]
+        for channel in motion["channels"]:
+            sampler, path = motion["samplers"][channel["sampler"]], channel["target"]["path"]
+            key = (sampler["input"], sampler["output"], sampler.get("interpolation"), path)  # many joints have the same keys
+            if key not in known:
+                known[key] = self.sampled(sampler, path, time)
+            moved[channel["target"]["node"], path] = known[key]
         matrices = self.scene_matrices(moved)
-        parts = []
-        for node in self.json["nodes"]:
+        skin_maps, parts = {}, []
+        for id, node in enumerate(self.json["nodes"]):
             if "mesh" not in node or "skin" not in node:
                 continue
-            skin = self.json["skins"][node["skin"]]
-            inverse = self.numbers(skin["inverseBindMatrices"]).astype(float).reshape(-1, 4, 4).transpose(0, 2, 1)
-            maps = np.stack([matrices[joint] @ bind for joint, bind in zip(skin["joints"], inverse)])
+            if node["skin"] not in skin_maps:
+                skin = self.json["skins"][node["skin"]]
+                inverse = self.numbers(skin["inverseBindMatrices"]).astype(float).reshape(-1, 4, 4).transpose(0, 2, 1)
+                skin_maps[node["skin"]] = np.stack([matrices[joint] for joint in skin["joints"]]) @ inverse
+            maps = skin_maps[node["skin"]]
             for primitive in self.json["meshes"][node["mesh"]]["primitives"]:
                 attributes = primitive["attributes"]
                 points = self.numbers(attributes["POSITION"]).astype(float)
+                rest = node.get("weights", self.json["meshes"][node["mesh"]].get("weights", []))
+                for weight, target in zip(moved.get((id, "weights"), rest), primitive.get("targets", [])):
+                    points = points + weight * self.numbers(target["POSITION"])
                 points = np.concatenate([points, np.ones((len(points), 1))], axis=1)
                 posed = np.zeros((len(points), 3))
                 for k in range(sum(name.startswith("JOINTS_") for name in attributes)):

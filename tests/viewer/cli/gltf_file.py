@@ -1,4 +1,4 @@
-"""Read a glTF file: its JSON text, and the bytes and numbers to which it refers."""
+"""Read a glTF file: its JSON text, and the bytes and numbers to which it refers. Write a .glb file."""
 
 import base64
 import json
@@ -17,6 +17,15 @@ def slerp(p, q, u):
     if angle < 1e-6:
         return (1 - u) * p + u * q
     return (np.sin((1 - u) * angle) * p + np.sin(u * angle) * q) / np.sin(angle)
+
+
+def glb_bytes(file, buffer):
+    """Return the bytes of a .glb file with a JSON text and a buffer."""
+    text = json.dumps(file, ensure_ascii=False).encode()
+    text += b" " * (-len(text) % 4)
+    buffer += b"\0" * (-len(buffer) % 4)
+    chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(buffer), b"BIN\0") + buffer
+    return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
 
 
 class GltfFile:

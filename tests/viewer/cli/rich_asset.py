@@ -9,6 +9,7 @@ import math
 import struct
 
 import shapes
+from gltf_file import glb_bytes
 
 PICTURES = [shapes.png(4, 4, lambda x, y: (60 * x, 60 * y, 0, 255)), shapes.png(2, 2, lambda x, y: (0, 90 * x, 90 * y, 255))]
 CODES = {"b": 5120, "B": 5121, "h": 5122, "H": 5123, "I": 5125, "f": 5126}
@@ -247,13 +248,9 @@ def write_glb(path):
     writer = Writer(1)
     file = content(writer)
     file["images"] = image_objects({"bufferView": writer.view(picture), "mimeType": "image/png"} for picture in PICTURES)
-    buffer = writer.buffers[0] + b"\0" * (-len(writer.buffers[0]) % 4)
     file.update(bufferViews=writer.views, accessors=writer.accessors,
-                buffers=[{"byteLength": len(buffer), "name": "buffer", "extras": extras("buffer")}])
-    text = json.dumps(file, ensure_ascii=False).encode()
-    text += b" " * (-len(text) % 4)
-    chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(buffer), b"BIN\0") + buffer
-    path.write_bytes(struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks)
+                buffers=[{"byteLength": len(writer.buffers[0]), "name": "buffer", "extras": extras("buffer")}])
+    path.write_bytes(glb_bytes(file, writer.buffers[0]))
 
 
 def write_gltf(path):

@@ -8,7 +8,7 @@ import foreign_rig
 import numpy as np
 import pytest
 import shapes
-from gltf_file import GltfFile
+from gltf_file import GltfFile, glb_bytes
 
 
 @pytest.fixture
@@ -182,7 +182,8 @@ def test_obj_files_with_missing_materials(folder):
     secret.unlink()
 
 
-def test_a_ply_file_keeps_its_colors_and_picture(folder):
+def write_ply(folder):
+    """Write a bar as a PLY file with a texture and colors."""
     vertices, faces = shapes.bar()
     names = ("x", "y", "z", "red", "green", "blue", "u", "v")
     lines = ["ply", "format ascii 1.0", "comment TextureFile wood.png", f"element vertex {len(vertices)}"]
@@ -193,6 +194,11 @@ def test_a_ply_file_keeps_its_colors_and_picture(folder):
     folder.write("bar.ply", "\n".join(lines) + "\n")
     picture = shapes.png(4, 4, lambda x, y: (50 * x, 50 * y, 0, 255))
     folder.write("wood.png", picture)
+    return picture
+
+
+def test_a_ply_file_keeps_its_colors_and_picture(folder):
+    picture = write_ply(folder)
     folder.run("rig", "bar.ply", "--handles", "auto:3", "-o", "bar.glb").is_good()
     file = GltfFile(folder / "bar.glb")
     points = file.attribute(0, "POSITION")
@@ -291,6 +297,45 @@ def test_damaged_files_of_the_importer(folder):
     folder.run("rig", "text.fbx", "-o", "o.glb").is_refused("text.fbx cannot be read")
     folder.run("rig", "none.3ds", "-o", "o.glb").is_refused("none.3ds cannot be read: there is no such file")
     folder.run("rig", "bar.dae", "-o", "o.glb", environment={"BINDPOSE_IMPORTER": "/none"}).is_refused("BINDPOSE_IMPORTER")
+
+
+def write_with_image(folder, name, uri):
+    """Write a bar as .gltf, .glb, .obj or .ply whose texture is the picture file `uri`."""
+    if name == "bar.obj":
+        write_obj(folder)
+        folder.write("bar.mtl", (folder / "bar.mtl").read_text().replace("wood.png", uri))
+    elif name == "bar.ply":
+        write_ply(folder)
+        folder.write("bar.ply", (folder / "bar.ply").read_text().replace("wood.png", uri))
+    else:
+        write_statue(folder)
+        file = json.loads((folder / "statue.gltf").read_text())
+        file.update(images=[{"uri": uri}], textures=[{"source": 0}])
+        file["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {"index": 0}
+        if name == "bar.glb":
+            buffer = base64.b64decode(file["buffers"][0].pop("uri").split(",")[1])
+            folder.write(name, glb_bytes(file, buffer))
+        else:
+            folder.write(name, json.dumps(file))
+
+
+@pytest.mark.parametrize("name", ["bar.glb", "bar.gltf", "bar.obj", "bar.ply"])
+def test_images_outside_of_the_folder_are_refused(folder, name):
+    """The image exists, so that only its folder is a reason to refuse it."""
+    secret = folder.path.parent / "secret.png"
+    secret.write_bytes(shapes.png(1, 1, lambda x, y: (0, 0, 0, 255)))
+    (folder / "link.png").symlink_to(secret)
+    (folder / "pictures").mkdir()
+    uris = ["../secret.png", "./../secret.png", "pictures/../../secret.png", "link.png"]
+    for uri in uris + (["%2E%2E/secret.png", "..%2Fsecret.png"] if name.startswith("bar.gl") else []):
+        write_with_image(folder, name, uri)
+        folder.run("rig", name, "--handles", "auto:2", "--domain", "surface", "-o", "out.glb").is_refused(
+            name, f"'{uri}' is not in the folder of the")
+    secret.unlink()
+    write_with_image(folder, name, "pictures/wood.png")
+    folder.write("pictures/wood.png", shapes.png(1, 1, lambda x, y: (0, 0, 0, 255)))
+    folder.run("rig", name, "--handles", "auto:2", "--domain", "surface", "-o", "out.glb").is_good()
+    assert len(GltfFile(folder / "out.glb").json["images"]) == 1
 
 
 def matrix_is_nan(file):

@@ -114,7 +114,7 @@ def test_interpolation_of_gltf_files(tmp_path):
 
 def test_assets(tmp_path):
     foreign_rig.write_foreign_rig(tmp_path / "c.gltf", animations=1)
-    (tmp_path / "skin.png").write_bytes(b"picture")
+    (tmp_path / "skin.png").write_bytes(shapes.png(1, 1, lambda x, y: (0, 0, 0, 255)))
     mesh, joints = bindpose.read_asset(tmp_path / "c.gltf")
     assert bindpose.report(mesh)["counts"]["meshes"] == len(foreign_rig.BOXES)
     ends = bindpose.handles(points=[[0, 0, 0], [0, 2, 0]])

@@ -14,61 +14,16 @@ import time
 import pytest
 import shapes
 from driver import PROGRAM
+from processes import children, limited, runs, stand_in, wait_for_end, wait_for_helper
 
 HELPER = pathlib.Path(PROGRAM).parent / "bindpose-mesher"
+pytestmark = pytest.mark.usefixtures("empty_temporary_folder")
 needs_helper = pytest.mark.skipif(not HELPER.exists(), reason="built without bindpose-mesher")
-
-
-def children(parent):
-    """Return the process ids of the children that are not zombies."""
-    found = []
-    for entry in os.listdir("/proc"):
-        with contextlib.suppress(OSError, ValueError):
-            if entry.isdigit():
-                state, mother = pathlib.Path("/proc", entry, "stat").read_text().rpartition(")")[2].split()[:2]
-                if int(mother) == parent and state != "Z":
-                    found.append(int(entry))
-    return found
-
-
-def wait_for_helper(process, seconds=60):
-    """Wait for the first child of the process and return its id."""
-    give_up = time.monotonic() + seconds
-    while time.monotonic() < give_up:
-        found = children(process.pid)
-        if found:
-            return found[0]
-        assert process.poll() is None, "it ended without a helper"
-        time.sleep(0.002)
-    raise AssertionError("no helper was started")
-
-
-def runs(number):
-    with contextlib.suppress(OSError):
-        return pathlib.Path("/proc", str(number), "stat").read_text().rpartition(")")[2].split()[0] != "Z"
-    return False
-
-
-@pytest.fixture(autouse=True)
-def nothing_is_left(tmp_path_factory, monkeypatch):
-    """Provide a folder for temporary files and check that it is empty at the end."""
-    temporary = tmp_path_factory.mktemp("temporary")
-    monkeypatch.setenv("TMPDIR", str(temporary))
-    yield
-    assert os.listdir(temporary) == []
 
 
 def start(folder, *words, **more):
     return subprocess.Popen([PROGRAM, "tetrahedralize", *words], cwd=folder.path, stdout=subprocess.PIPE,
                             stderr=subprocess.PIPE, text=True, **more)
-
-
-def sleeping_helper(folder):
-    """Return an environment in which the helper program does nothing for a minute."""
-    os.mkdir(folder / "helper")
-    folder.write("helper/bindpose-mesher", "#!/bin/sh\nexec sleep 60\n")
-    os.chmod(folder / "helper/bindpose-mesher", 0o755)
-    return {**os.environ, "BINDPOSE_MESHER": str(folder / "helper/bindpose-mesher")}
 
 
 # ---- The helper ------------------------------------------------------------------------------------
@@ -146,10 +101,6 @@ def test_a_helper_killed_again_and_again(folder, method, code):
 # ---- Full disk -------------------------------------------------------------------------------------
 
 
-def limited(kind, size):
-    return lambda: resource.setrlimit(kind, (size, size))
-
-
 @pytest.mark.parametrize("ending", ["vtu", "vtk", "mesh"])
 @pytest.mark.parametrize("size", [500, 20000])
 def test_a_full_disk(folder, ending, size):
@@ -215,17 +166,15 @@ def test_little_memory_for_all(folder, mebibytes):
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_cancel_kills_the_helper(folder, number):
     folder.off("s.off", shapes.sphere())
+    environment = stand_in(folder, "BINDPOSE_MESHER", "exec sleep 60")
     before = sorted(os.listdir(folder.path))
-    process = start(folder, "s.off", "-o", "s.vtu", env=sleeping_helper(folder))
+    process = start(folder, "s.off", "-o", "s.vtu", env={**os.environ, **environment})
     helper = wait_for_helper(process)
     process.send_signal(number)
-    asked = time.monotonic()
-    while runs(helper):
-        assert time.monotonic() - asked < 30  # 20 ms on an idle machine
-        time.sleep(0.002)
+    wait_for_end(helper)  # 20 ms on an idle machine
     _out, err = process.communicate(timeout=60)
     assert process.returncode == 4 and err == "bindpose tetrahedralize: canceled\n"
-    assert sorted(os.listdir(folder.path)) == ["helper", *before]
+    assert sorted(os.listdir(folder.path)) == before
 
 
 @needs_helper
@@ -241,10 +190,7 @@ def test_no_helper_outlives_the_program(folder, age):
     assert runs(helper)
     process.kill()
     process.communicate(timeout=60)
-    asked = time.monotonic()
-    while runs(helper):
-        assert time.monotonic() - asked < 30
-        time.sleep(0.002)
+    wait_for_end(helper)
 
 
 # ---- Sizes -----------------------------------------------------------------------------------------

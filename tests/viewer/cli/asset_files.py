@@ -1,4 +1,4 @@
-"""Return the content of files that bindpose-importer converts: 3DS and 3MF."""
+"""Return the content of files that bindpose-importer converts: 3DS, 3MF, and Collada files with a motion."""
 
 import io
 import struct
@@ -83,3 +83,84 @@ def three_mf(model):
                            ("3D/3dmodel.model", model)):
             file.writestr(name, text)
     return archive.getvalue()
+
+
+# ---- Collada with a motion -----------------------------------------------------------------------
+
+COLLADA_MOTION = """<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit meter="{meter}"/><up_axis>{up}</up_axis></asset>
+<library_animations>
+{animations}</library_animations>
+<library_visual_scenes><visual_scene id="scene">
+{nodes}
+</visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#scene"/></scene></COLLADA>"""
+SOURCE = """<source id="{id}"><{kind} id="{id} array" count="{count}">{values}</{kind}><technique_common>
+<accessor source="#{id} array" count="{rows}" stride="{stride}"><param name="{name}" type="{type}"/></accessor>
+</technique_common></source>
+"""
+ANIMATION = """<animation id="{id}">
+{sources}<sampler id="{id} sampler"><input semantic="INPUT" source="#{id} times"/>
+<input semantic="OUTPUT" source="#{id} values"/><input semantic="INTERPOLATION" source="#{id} kinds"/></sampler>
+<channel source="#{id} sampler" target="{target}"/></animation>
+"""
+
+
+def _numbers(values):
+    return " ".join(repr(float(x)) for x in np.ravel(values))
+
+
+def _source(id, values, name, type, kind="float_array", stride=1):
+    text = " ".join(values) if kind == "Name_array" else _numbers(values)
+    return SOURCE.format(id=id, kind=kind, count=np.size(values), values=text, rows=np.size(values) // stride,
+                         stride=stride, name=name, type=type)
+
+
+def _animation(target, times, values):
+    """Return the keys of a number, or of a matrix."""
+    id = target.replace("/", " ").replace(".", " ")
+    output = ("TRANSFORM", "float4x4", "float_array", 16) if np.ndim(values) == 3 else ("VALUE", "float")
+    sources = [_source(f"{id} times", times, "TIME", "float"), _source(f"{id} values", values, *output),
+               _source(f"{id} kinds", ["LINEAR"] * len(times), "INTERPOLATION", "name", "Name_array")]
+    return ANIMATION.format(id=id, sources="".join(sources), target=target)
+
+
+def collada_motion(joints, times, in_parts, meter=1.0, up="Y_UP"):
+    """Return the text of a Collada file with a skeleton and its motion, without a mesh.
+
+    `joints` maps a name to (name of the parent or None, axis, offsets, degrees). The joint turns about the axis (x, y or
+    z). It has one offset from its parent and one angle per time. If `in_parts` is true, the file animates coordinates and
+    angles, otherwise matrices.
+    """
+    animations, elements = [], {}
+    for name, (_, axis, offsets, degrees) in joints.items():
+        direction = [float(axis == other) for other in "xyz"]
+        if in_parts:
+            elements[name] = (f'<translate sid="move">{_numbers(offsets[0])}</translate>'
+                              f'<rotate sid="turn">{_numbers([*direction, degrees[0]])}</rotate>')
+            animations.append(_animation(f"{name}/turn.ANGLE", times, degrees))
+            animations += [_animation(f"{name}/move.{'XYZ'[k]}", times, [offset[k] for offset in offsets])
+                           for k in range(3)]
+        else:
+            matrices = np.array([transform(axis, angle, offset) for angle, offset in zip(degrees, offsets)])
+            elements[name] = f'<matrix sid="transform">{_numbers(matrices[0])}</matrix>'
+            animations.append(_animation(f"{name}/transform", times, matrices))
+
+    def node(name):
+        children = "".join(node(child) for child, joint in joints.items() if joint[0] == name)
+        return f'<node id="{name}" sid="{name}" name="{name}" type="JOINT">{elements[name]}{children}</node>'
+
+    return COLLADA_MOTION.format(meter=meter, up=up, animations="".join(animations),
+                                 nodes="\n".join(node(name) for name, joint in joints.items() if joint[0] is None))
+
+
+def transform(axis, degrees, offset):
+    """Return the 4 x 4 matrix of a rotation about an axis (x, y or z) through the origin, then a translation."""
+    matrix = np.eye(4)
+    i, j = {"x": (1, 2), "y": (2, 0), "z": (0, 1)}[axis]
+    cosine, sine = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+    matrix[i, i] = matrix[j, j] = cosine
+    matrix[i, j], matrix[j, i] = -sine, sine
+    matrix[:3, 3] = offset
+    return matrix

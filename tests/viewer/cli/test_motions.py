@@ -3,10 +3,13 @@
 import json
 import math
 
+import asset_files
+import bindpose
 import numpy as np
 import pytest
 import shapes
 from gltf_file import GltfFile
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 # A chain along x, as long as the bar of shapes.bar() times `size`. The third joint is a leaf with the name of no handle.
 BVH = """HIERARCHY
@@ -38,20 +41,24 @@ Frame Time: 0.25
 """
 
 
+def write_bones(folder, bones):
+    """Write bones as handles. `bones` maps a name to its head, its tail and the index of its parent."""
+    ends = [end for head, tail, _ in bones.values() for end in (head, tail)]
+    folder.write("bones.vtp", f"""<?xml version="1.0"?>
+<VTKFile type="PolyData" version="0.1"><PolyData><Piece NumberOfPoints="{len(ends)}" NumberOfLines="{len(bones)}">
+<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">{' '.join(str(x) for end in ends for x in end)}</DataArray></Points>
+<Lines><DataArray type="Int64" Name="connectivity" format="ascii">{' '.join(map(str, range(len(ends))))}</DataArray>
+<DataArray type="Int64" Name="offsets" format="ascii">{' '.join(str(2 * k + 2) for k in range(len(bones)))}</DataArray></Lines>
+<CellData><DataArray type="String" Name="HandleName" format="ascii">{' '.join(str(ord(c)) for name in bones for c in name + chr(0))}</DataArray>
+<DataArray type="Int32" Name="Parent" format="ascii">{' '.join(str(parent) for _, _, parent in bones.values())}</DataArray></CellData>
+</Piece></PolyData></VTKFile>""")
+
+
 @pytest.fixture
 def rig(folder):
     """A bar with two bones along it, hips and spine, and a motion of a skeleton that is ten times as large."""
     folder.off("bar.off", shapes.bar())
-    bones = {"hips": ((0, 0.5, 0.5), (3, 0.5, 0.5)), "spine": ((3, 0.5, 0.5), (6, 0.5, 0.5))}
-    ends = [end for bone in bones.values() for end in bone]
-    folder.write("bones.vtp", f"""<?xml version="1.0"?>
-<VTKFile type="PolyData" version="0.1"><PolyData><Piece NumberOfPoints="4" NumberOfLines="2">
-<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">{' '.join(str(x) for end in ends for x in end)}</DataArray></Points>
-<Lines><DataArray type="Int64" Name="connectivity" format="ascii">0 1 2 3</DataArray>
-<DataArray type="Int64" Name="offsets" format="ascii">2 4</DataArray></Lines>
-<CellData><DataArray type="String" Name="HandleName" format="ascii">{' '.join(str(ord(c)) for name in bones for c in name + chr(0))}</DataArray>
-<DataArray type="Int32" Name="Parent" format="ascii">-1 0</DataArray></CellData>
-</Piece></PolyData></VTKFile>""")
+    write_bones(folder, {"hips": ((0, 0.5, 0.5), (3, 0.5, 0.5), -1), "spine": ((3, 0.5, 0.5), (6, 0.5, 0.5), 0)})
     folder.run("weights", "bar.off", "--handles", "bones.vtp", "-o", "bar.vtp").is_good()
     folder.write("walk.bvh", BVH.format(half=30, step=20))
     return folder
@@ -132,3 +139,63 @@ def test_bad_motions_are_one_sentence(rig):
     rig.run(*words, "half.bvh").is_refused("half.bvh cannot be read")
     rig.run(*words, "none.bvh").is_refused("none.bvh")
     rig.run(*words, "walk.bvh", environment={"BINDPOSE_IMPORTER": "/none"}).is_refused("BINDPOSE_IMPORTER")
+
+
+# Three bones whose heads are not on one line, so that the axes of the file can be recognized.
+PLATE_BONES = {"hips": ((1, 2, 0.5), (3, 2, 0.5), -1), "spine": ((3, 2, 0.5), (5, 2, 0.5), 0),
+               "fin": ((3, 3, 0.5), (5, 3.5, 0.5), 0)}
+STEP = np.array([1, 2, 3])
+
+
+def plate_joints(scale):
+    """Return the motion of the bones for collada_motion(). The hips turn about z, then the spine about y with a step of
+    the hips. The fin only follows the hips.
+    """
+    heads = {name: scale * np.array(head) for name, (head, _, _) in PLATE_BONES.items()}
+    spine, fin = heads["spine"] - heads["hips"], heads["fin"] - heads["hips"]
+    return {"hips": (None, "z", [heads["hips"], heads["hips"], heads["hips"] + scale * STEP], [0, 30, 30]),
+            "spine": ("hips", "y", [spine] * 3, [0, 0, 40]), "fin": ("hips", "z", [fin] * 3, [0, 0, 0])}
+
+
+def posed_plate(points, weights, frame):
+    """Return the points that linear blend skinning gives for the motion."""
+    result, maps = np.zeros_like(points), {}
+    for k, (name, (parent, axis, offsets, degrees)) in enumerate(plate_joints(1).items()):
+        local = asset_files.transform(axis, degrees[frame], offsets[frame])
+        maps[name] = maps[parent] @ local if parent else local
+        linear, position = maps[name][:3, :3], maps[name][:3, 3]
+        result += weights[:, k, None] * ((points - PLATE_BONES[name][0]) @ linear.T + position)
+    return result
+
+
+@pytest.mark.parametrize("in_parts", [False, True], ids=["matrices", "parts"])
+@pytest.mark.parametrize("up, meter, scale", [("Y_UP", 1, 1), ("Z_UP", 0.01, 1000), ("X_UP", 0.0254, 5)])
+def test_a_collada_motion(folder, in_parts, up, meter, scale):
+    """A skeleton of another size in another unit and with other axes moves the mesh as its joints move."""
+    folder.off("plate.off", shapes.bar(12, 8, 2, (6.0, 4.0, 1.0)))
+    write_bones(folder, PLATE_BONES)
+    folder.run("weights", "plate.off", "--handles", "bones.vtp", "-o", "plate.vtp").is_good()
+    folder.write("walk.dae", asset_files.collada_motion(plate_joints(scale), [0, 0.25, 0.5], in_parts, meter, up))
+    run = folder.run("deform", "plate.vtp", "--handles", "bones.vtp", "--pose", "walk.dae", "-o", "out.vtp", "--report", "-")
+    report = run.is_good().report
+    assert run.err == "" and report["motion"] == "retargeted" and report["counts"]["frames"] == 3
+    assert report["handles_without_joint"] == report["joints_without_handle"] == []
+    rest = bindpose.read(folder / "plate.vtp")
+    points = vtk_to_numpy(rest.GetPoints().GetData()).astype(float)
+    weights = vtk_to_numpy(rest.GetPointData().GetArray("Weights"))
+    for frame in range(3):
+        posed = vtk_to_numpy(bindpose.read(folder / f"out_{frame:04}.vtp").GetPoints().GetData())
+        assert posed == pytest.approx(posed_plate(points, weights, frame), abs=1e-6)
+
+
+def test_a_collada_file_without_a_motion(folder):
+    folder.off("plate.off", shapes.bar(12, 8, 2, (6.0, 4.0, 1.0)))
+    write_bones(folder, PLATE_BONES)
+    folder.run("weights", "plate.off", "--handles", "bones.vtp", "-o", "plate.vtp").is_good()
+    text = asset_files.collada_motion(plate_joints(1), [0, 0.25, 0.5], True)
+    begin, end = text.index("<library_animations>"), text.index("<library_visual_scenes>")
+    folder.write("still.dae", text[:begin] + text[end:])
+    words = ("deform", "plate.vtp", "--handles", "bones.vtp", "-o", "out.vtp", "--pose")
+    folder.run(*words, "still.dae").is_refused("still.dae", "no animation")
+    folder.write("half.dae", text[:len(text) // 2])
+    folder.run(*words, "half.dae").is_refused("half.dae cannot be read")

@@ -1,4 +1,4 @@
-"""Return the content of files that bindpose-importer converts: 3DS, 3MF, and Collada files with a motion."""
+"""Return the content of files that bindpose-importer converts: 3DS, 3MF, and Collada with a mesh or a motion."""
 
 import io
 import struct
@@ -85,7 +85,17 @@ def three_mf(model):
     return archive.getvalue()
 
 
-# ---- Collada with a motion -----------------------------------------------------------------------
+# ---- Collada -------------------------------------------------------------------------------------
+
+COLLADA_MESH = """<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit meter="1"/><up_axis>Y_UP</up_axis></asset>
+<library_geometries><geometry id="mesh"><mesh>
+{points}<vertices id="vertices"><input semantic="POSITION" source="#points"/></vertices>
+<triangles count="{count}"><input semantic="VERTEX" source="#vertices" offset="0"/><p>{corners}</p></triangles>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="scene"><node id="node"><instance_geometry url="#mesh"/></node></visual_scene>
+</library_visual_scenes><scene><instance_visual_scene url="#scene"/></scene></COLLADA>"""
 
 COLLADA_MOTION = """<?xml version="1.0"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
@@ -97,8 +107,7 @@ COLLADA_MOTION = """<?xml version="1.0"?>
 </visual_scene></library_visual_scenes>
 <scene><instance_visual_scene url="#scene"/></scene></COLLADA>"""
 SOURCE = """<source id="{id}"><{kind} id="{id} array" count="{count}">{values}</{kind}><technique_common>
-<accessor source="#{id} array" count="{rows}" stride="{stride}"><param name="{name}" type="{type}"/></accessor>
-</technique_common></source>
+<accessor source="#{id} array" count="{rows}" stride="{stride}">{parameters}</accessor></technique_common></source>
 """
 ANIMATION = """<animation id="{id}">
 {sources}<sampler id="{id} sampler"><input semantic="INPUT" source="#{id} times"/>
@@ -111,18 +120,27 @@ def _numbers(values):
     return " ".join(repr(float(x)) for x in np.ravel(values))
 
 
-def _source(id, values, name, type, kind="float_array", stride=1):
+def _source(id, values, names, type, kind="float_array", stride=1):
+    """Return an array. Each parameter of a row has one of the names."""
     text = " ".join(values) if kind == "Name_array" else _numbers(values)
+    parameters = "".join(f'<param name="{name}" type="{type}"/>' for name in names)
     return SOURCE.format(id=id, kind=kind, count=np.size(values), values=text, rows=np.size(values) // stride,
-                         stride=stride, name=name, type=type)
+                         stride=stride, parameters=parameters)
+
+
+def collada_mesh(mesh):
+    """Return the text of a Collada file with a mesh."""
+    vertices, faces = mesh
+    return COLLADA_MESH.format(points=_source("points", vertices, "XYZ", "float", stride=3), count=len(faces),
+                               corners=" ".join(str(v) for face in faces for v in face))
 
 
 def _animation(target, times, values):
     """Return the keys of a number, or of a matrix."""
     id = target.replace("/", " ").replace(".", " ")
-    output = ("TRANSFORM", "float4x4", "float_array", 16) if np.ndim(values) == 3 else ("VALUE", "float")
-    sources = [_source(f"{id} times", times, "TIME", "float"), _source(f"{id} values", values, *output),
-               _source(f"{id} kinds", ["LINEAR"] * len(times), "INTERPOLATION", "name", "Name_array")]
+    output = (["TRANSFORM"], "float4x4", "float_array", 16) if np.ndim(values) == 3 else (["VALUE"], "float")
+    sources = [_source(f"{id} times", times, ["TIME"], "float"), _source(f"{id} values", values, *output),
+               _source(f"{id} kinds", ["LINEAR"] * len(times), ["INTERPOLATION"], "name", "Name_array")]
     return ANIMATION.format(id=id, sources="".join(sources), target=target)
 
 

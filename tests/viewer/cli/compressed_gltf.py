@@ -1,39 +1,38 @@
-"""Return glTF files that require decompression. Their compressed data is not valid, so that every library refuses it."""
+"""Return glTF files with compressed meshes. The compressed data is not valid, so that the libraries refuse it."""
 
 import json
 
 import foreign_rig
 
 
-def _file(buffer, attributes, indices, extension, primitive_extensions=None):
-    primitive = {"attributes": attributes, "indices": indices, **(primitive_extensions or {})}
-    return buffer.complete({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
-                            "meshes": [{"primitives": [primitive]}], "extensionsUsed": [extension],
-                            "extensionsRequired": [extension]})
-
-
-def _buffer():
-    """Return a buffer with the accessors of a triangle."""
+def _triangle(extension, is_required):
+    """Return the JSON object of a file with a triangle that is not compressed."""
     buffer = foreign_rig.Buffer()
-    position = buffer.add([[0, 0, 0], [1, 0, 0], [0, 1, 0]], "VEC3")
-    return buffer, {"POSITION": position}, buffer.add([0, 1, 2], "SCALAR", "H")
+    attributes = {"POSITION": buffer.add([[0, 0, 0], [1, 0, 0], [0, 1, 0]], "VEC3")}
+    primitive = {"attributes": attributes, "indices": buffer.add([0, 1, 2], "SCALAR", "H")}
+    file = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [primitive]}], "extensionsUsed": [extension]}
+    if is_required:
+        file["extensionsRequired"] = [extension]
+    return buffer.complete(file)
 
 
-def draco_text():
-    """Return a triangle whose primitive is compressed by Draco."""
+def draco_text(is_required=True):
+    """Return a triangle whose primitive is compressed by Draco. If it is not required, there is uncompressed data, too."""
     name = "KHR_draco_mesh_compression"
-    buffer, attributes, indices = _buffer()
-    extension = {"bufferView": 0, "attributes": {"POSITION": 0}}
-    file = _file(buffer, attributes, indices, name, {"extensions": {name: extension}})
-    for accessor in file["accessors"]:
+    file = _triangle(name, is_required)
+    file["meshes"][0]["primitives"][0]["extensions"] = {name: {"bufferView": 0, "attributes": {"POSITION": 0}}}
+    for accessor in file["accessors"] if is_required else []:
         del accessor["bufferView"]
     return json.dumps(file)
 
 
-def meshopt_text():
-    """Return a triangle whose positions are in a buffer view that is compressed by meshopt."""
+def meshopt_text(is_required=True):
+    """Return a triangle whose positions are in a buffer view that is compressed by meshopt. The uncompressed view is not
+    used if the compression is required.
+    """
     name = "EXT_meshopt_compression"
-    file = _file(*_buffer(), name)
+    file = _triangle(name, is_required)
     view = file["bufferViews"][0]
     view["extensions"] = {name: {**view, "byteStride": 12, "count": 3, "mode": "ATTRIBUTES"}}
     return json.dumps(file)

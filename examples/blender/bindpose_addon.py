@@ -1,10 +1,10 @@
 """Bindpose in Blender: smooth bounded weights for an armature, and a skeleton from a shape.
 
 Install it by *Edit > Preferences > Add-ons > Install*, and set the path of the program `bindpose` in the preferences of
-the add-on. It adds
+the add-on. It adds to the 3D viewport, in Object Mode:
 
-- *Object > Parent > With Bindpose Weights*, for the selected meshes and the active armature;
-- *Object > Bindpose > Skeleton from Shape*, for the active mesh.
+- *Object > Parent > Armature Deform With Bindpose Weights*, for the selected meshes and the active armature;
+- *Bindpose > Skeleton from Shape*, for the active mesh.
 
 The program runs in the background; Escape cancels it.
 """
@@ -25,7 +25,7 @@ bl_info = {
     "author": "The Bindpose developers",
     "version": (0, 1, 0),
     "blender": (3, 4, 0),
-    "location": "Object > Parent, Object > Bindpose",
+    "location": "3D View > Object > Parent, 3D View > Bindpose",
     "description": "Bounded biharmonic weights for any mesh, however unclean, and skeletons from shapes",
     "category": "Rigging",
 }
@@ -390,6 +390,7 @@ class BindposeOperator:
 
     bl_options = {"UNDO"}
     interactive = False
+    job = None
 
     def invoke(self, context, _event):
         """Ask for the options. Blender then calls `execute`."""
@@ -432,7 +433,10 @@ class BindposeOperator:
         return {"PASS_THROUGH"} if runs else {"FINISHED"} if done else {"CANCELLED"}
 
     def cancel(self, context):
-        """End the program. Blender also calls this method when it ends the operator, for example to load a file."""
+        """End the program. Blender also calls this method when it ends the operator, for example to load a file, and when the
+        user closes the dialog."""
+        if self.job is None:
+            return
         self.job.end()
         context.window_manager.event_timer_remove(self.timer)
         context.window_manager.progress_end()
@@ -477,7 +481,7 @@ class OBJECT_OT_bindpose_weights(BindposeOperator, bpy.types.Operator):
     """Parent the selected meshes to the active armature with weights of Bindpose"""
 
     bl_idname = "object.bindpose_weights"
-    bl_label = "With Bindpose Weights"
+    bl_label = "Armature Deform With Bindpose Weights"
 
     influences: bpy.props.IntProperty(  # type: ignore[valid-type]
         name="Influences", description="Largest number of bones per vertex. 0: all", default=0, min=0)
@@ -578,30 +582,41 @@ class VIEW3D_MT_bindpose(bpy.types.Menu):
     bl_label = "Bindpose"
 
     def draw(self, _context):
-        self.layout.operator(OBJECT_OT_bindpose_skeleton.bl_idname)
-        self.layout.operator(OBJECT_OT_bindpose_weights.bl_idname, text="Parent with Bindpose Weights")
+        draw_operators(self.layout, OBJECT_OT_bindpose_skeleton, OBJECT_OT_bindpose_weights)
 
 
 CLASSES = (OBJECT_OT_bindpose_weights, OBJECT_OT_bindpose_skeleton, BindposePreferences, VIEW3D_MT_bindpose)
 
 
+def draw_operators(layout, *operators):
+    """Draw menu entries that open the dialogs of operators. Without `operator_context`, a menu that a shortcut opens calls the
+    operators without a dialog, and Blender is blocked until they end."""
+    layout.operator_context = "INVOKE_DEFAULT"
+    for operator in operators:
+        layout.operator(operator.bl_idname)
+
+
 def draw_parent_entry(self, _context):
-    self.layout.operator(OBJECT_OT_bindpose_weights.bl_idname)
+    """Draw the last entry of *Object > Parent*. An add-on cannot add it to the group *Armature Deform*, because Blender draws
+    this group as one list, nor to the popup of Ctrl-P, which Blender draws in C."""
+    self.layout.separator()
+    draw_operators(self.layout, OBJECT_OT_bindpose_weights)
 
 
-def draw_menu(self, _context):
-    self.layout.menu("VIEW3D_MT_bindpose")
+def draw_header_menu(self, context):
+    if context.mode == "OBJECT":
+        self.layout.menu(VIEW3D_MT_bindpose.__name__)
 
 
 def register():
     for each in CLASSES:
         bpy.utils.register_class(each)
     bpy.types.VIEW3D_MT_object_parent.append(draw_parent_entry)
-    bpy.types.VIEW3D_MT_object.append(draw_menu)
+    bpy.types.VIEW3D_MT_editor_menus.append(draw_header_menu)
 
 
 def unregister():
-    bpy.types.VIEW3D_MT_object.remove(draw_menu)
+    bpy.types.VIEW3D_MT_editor_menus.remove(draw_header_menu)
     bpy.types.VIEW3D_MT_object_parent.remove(draw_parent_entry)
     for each in reversed(CLASSES):
         bpy.utils.unregister_class(each)

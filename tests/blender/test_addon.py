@@ -12,14 +12,20 @@ ADDON = HERE.parents[1] / "examples" / "blender" / "bindpose_addon.py"
 
 
 def run_blender(script, folder, *options):
-    """Run a script in Blender and return what it found."""
+    """Run a script in Blender and return what it found. Blender's folders for users are empty."""
     result = folder / "result.json"
     environment = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
+    environment["TMPDIR"] = str(folder)
+    for name in ("SCRIPTS", "CONFIG"):
+        user = folder / name.lower()
+        user.mkdir()
+        environment[f"BLENDER_USER_{name}"] = str(user)
     done = subprocess.run(
         ["blender", *options, "--factory-startup", "--python-exit-code", "3", "--python", HERE / script, "--", ADDON,
          os.environ["BINDPOSE_PROGRAM"], result],
-        capture_output=True, text=True, timeout=500, check=False, env={**environment, "TMPDIR": str(folder)})
+        capture_output=True, text=True, timeout=500, check=False, env=environment)
     assert done.returncode == 0 and result.exists(), done.stdout + done.stderr
+    assert "Traceback" not in done.stdout + done.stderr, done.stdout + done.stderr
     return json.loads(result.read_text())
 
 
@@ -96,9 +102,26 @@ def test_errors_name_the_object(found):
     assert "the mesh 'empty' has no faces" in found["error"]
 
 
-def test_the_window_stays_usable_and_escape_cancels(tmp_path):
-    found = run_blender("addon_in_window.py", tmp_path, "--enable-event-simulate")
+@pytest.fixture(scope="module")
+def found_in_window(tmp_path_factory):
+    """What Blender found in its window; see addon_in_window.py."""
+    found = run_blender("addon_in_window.py", tmp_path_factory.mktemp("window"), "--enable-event-simulate")
     assert "error" not in found, found["error"]
+    return found
+
+
+def test_menu_entries_call_the_operators(found_in_window):
+    found = found_in_window
+    assert found["dialogs"] == ["OBJECT_OT_bindpose_weights", "OBJECT_OT_bindpose_skeleton"]
     assert found["before_enter"] == 0  # the dialog asks first
     assert found["parent"] == "rig" and all(sum(row.values()) == pytest.approx(1, abs=1e-3) for row in found["weights"])
-    assert found["folder_is_gone"] and found["canceled"]
+    assert found["skeleton"]
+
+
+def test_progress_is_shown(found_in_window):
+    values = found_in_window["progress"]
+    assert all(0 <= value <= 100 for value in values) and any(0 < value < 100 for value in values)
+
+
+def test_the_window_stays_usable_and_escape_cancels(found_in_window):
+    assert found_in_window["folder_is_gone"] and found_in_window["after_escape"] == 0 and found_in_window["canceled"]

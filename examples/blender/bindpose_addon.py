@@ -312,8 +312,9 @@ def make_armature(name, points, bones, middle, context):
 # ---- The program -----------------------------------------------------------------------------------------------------
 
 def program_path(context):
+    """Return the path in the preferences. An empty path, or a name without a folder, is searched in the PATH."""
     addon = context.preferences.addons.get(__name__)
-    path = addon.preferences.program if addon else "bindpose"
+    path = (addon.preferences.program.strip() if addon else "") or "bindpose"
     found = shutil.which(bpy.path.abspath(path))
     if not found:
         raise BindposeError(f"the program '{path}' is not found; set its path in the preferences of the add-on")
@@ -343,6 +344,14 @@ class Job:
 
     def path(self, name):
         return os.path.join(self.folder.name, name)
+
+    def result(self, name):
+        """Return the path of a file that the program has written."""
+        path = self.path(name)
+        if not os.path.exists(path):
+            raise BindposeError(f"'{self.program}' has not written a result; set the path of bindpose in the preferences of the "
+                                "add-on")
+        return path
 
     def poll(self):
         """Start the next command if none runs. Return True if all commands are done; raise BindposeError for an error."""
@@ -524,7 +533,7 @@ class OBJECT_OT_bindpose_weights(BindposeOperator, bpy.types.Operator):
         armature = object_named(self.armature)
         for index, (name, points) in enumerate(zip(self.things, self.shapes)):
             thing = object_named(name)
-            weights = to_vertices(read_dmat(job.path(f"{index}.dmat")), points,
+            weights = to_vertices(read_dmat(job.result(f"{index}.dmat")), points,
                                   world_points(thing.data, thing.matrix_world))
             if len(weights) != len(thing.data.vertices):
                 raise BindposeError(f"the mesh '{name}' has changed; run the command again")
@@ -562,7 +571,7 @@ class OBJECT_OT_bindpose_skeleton(BindposeOperator, bpy.types.Operator):
             context, [["handles", "shape.off", "--maximum-bones", str(self.maximum_bones), "-o", "bones.tgf"]], write_inputs)
 
     def finish(self, context, job):
-        points, bones = read_tgf(job.path("bones.tgf"))
+        points, bones = read_tgf(job.result("bones.tgf"))
         if not bones:
             raise BindposeError(f"the mesh '{self.mesh_name}' has no curve skeleton with bones")
         make_armature(f"{self.mesh_name} skeleton", points, bones, self.middle, context)
@@ -572,7 +581,8 @@ class BindposePreferences(bpy.types.AddonPreferences):
     bl_idname = __name__
 
     program: bpy.props.StringProperty(  # type: ignore[valid-type]
-        name="Program", subtype="FILE_PATH", default="bindpose", description="Path of the program bindpose")
+        name="Program", subtype="FILE_PATH", default="",
+        description="Path of the program bindpose. Empty: the program is searched in the PATH")
 
     def draw(self, _context):
         self.layout.prop(self, "program")

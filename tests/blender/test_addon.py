@@ -1,4 +1,4 @@
-"""The Blender add-on: weights in vertex groups, locked groups, modifiers, a skeleton, errors, and the window."""
+"""The Blender add-on: installation, weights in vertex groups, locked groups, modifiers, a skeleton, errors, the window."""
 
 import json
 import os
@@ -125,3 +125,29 @@ def test_progress_is_shown(found_in_window):
 
 def test_the_window_stays_usable_and_escape_cancels(found_in_window):
     assert found_in_window["folder_is_gone"] and found_in_window["after_escape"] == 0 and found_in_window["canceled"]
+
+
+@pytest.fixture(scope="module")
+def installed(tmp_path_factory):
+    """What Blender found after the installation of the add-on; see addon_installed.py."""
+    folder = tmp_path_factory.mktemp("installed")
+    return folder, run_blender("addon_installed.py", folder, "-b")
+
+
+def test_enable_and_disable(installed):
+    folder, found = installed
+    assert found["file"] == str(folder / "scripts" / "addons" / "bindpose_addon.py")
+    assert found["program"] == ""
+    assert found["menus"] == {"VIEW3D_MT_object_parent": ["draw_parent_entry"], "VIEW3D_MT_editor_menus": ["draw_header_menu"]}
+    assert found["operators"] == ["bindpose_skeleton", "bindpose_weights"]
+    assert found["without"] == {"menus": {"VIEW3D_MT_object_parent": [], "VIEW3D_MT_editor_menus": []}, "operators": [],
+                                "preferences": False}
+
+
+def test_the_path_in_the_preferences(installed):
+    runs = installed[1]["runs"]
+    assert runs["path"] == "" and runs["empty, in PATH"] == "" and runs["name, in PATH"] == ""
+    for name, program in (("missing", "/none/bindpose"), ("folder", "/usr"), ("empty, not in PATH", "bindpose")):
+        assert runs[name] == f"the program '{program}' is not found; set its path in the preferences of the add-on"
+    assert runs["other program"] == ("'/bin/true' has not written a result; set the path of bindpose in the preferences of the "
+                                     "add-on")

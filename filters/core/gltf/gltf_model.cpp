@@ -2,6 +2,7 @@
 // of images.
 #include "gltf/gltf_model.h"
 
+#include "gltf/gltf_integers.h"
 #include "io/json_depth.h"
 #include "io/text_scanner.h"
 
@@ -163,9 +164,10 @@ tinygltf::Model parse_gltf(const std::string& content, GltfBufferFiles& files)
     text = text.substr(std::min<std::size_t>(20, text.size()), length);
   }
   const Status depth = check_json_depth(text);
-  if (!depth.ok())
+  const Status checked = depth.ok() ? check_gltf_integers(text) : depth;
+  if (!checked.ok())
   {
-    throw GltfError("the file is not valid: " + depth.message);
+    throw GltfError("the file is not valid: " + checked.message);
   }
   tinygltf::Model model;
   tinygltf::TinyGLTF parser;

@@ -449,6 +449,22 @@ def sparse_indices_have_a_huge_offset(file):
     add_sparse_points(file)[0]["sparse"]["indices"]["byteOffset"] = 2 ** 31
 
 
+def sparse_values_have_an_offset_of_33_bits(file):
+    add_sparse_points(file)[0]["sparse"]["values"]["byteOffset"] = 2 ** 32
+
+
+def sparse_indices_have_an_offset_of_33_bits(file):
+    add_sparse_points(file)[0]["sparse"]["indices"]["byteOffset"] = 2 ** 32
+
+
+def sparse_count_has_33_bits(file):
+    add_sparse_points(file)[0]["sparse"]["count"] = 2 ** 32 + 1
+
+
+def points_have_a_negative_offset(file):
+    file["accessors"][file["meshes"][0]["primitives"][0]["attributes"]["POSITION"]]["byteOffset"] = -4
+
+
 def sparse_view_is_missing(file):
     add_sparse_points(file)[0]["sparse"]["values"]["bufferView"] = 999
 
@@ -461,11 +477,13 @@ def buffer_is_outside(file):
     (matrix_is_nan, ("inverse bind matrices", "finite")), (joint_is_no_node, ("999",)), (nodes_are_a_cycle, ("cycle",)),
     (sparse_index_is_too_large, ("POSITION", "sparse")), (sparse_values_are_beyond_the_view, ("POSITION", "beyond the end")),
     (sparse_values_are_beyond_the_buffer, ("POSITION", "beyond the end")),
-    (sparse_count_is_larger_than_the_count, ("POSITION", "sparse")), (sparse_count_is_negative, ("POSITION", "sparse")),
-    (sparse_values_have_a_negative_offset, ("POSITION", "sparse")),
-    (sparse_indices_have_a_negative_offset, ("POSITION", "sparse")),
+    (sparse_count_is_larger_than_the_count, ("POSITION", "sparse")), (sparse_count_is_negative, ("count is -",)),
+    (sparse_values_have_a_negative_offset, ("byteOffset is -",)),
+    (sparse_indices_have_a_negative_offset, ("byteOffset is -",)),
     (sparse_values_have_a_huge_offset, ("POSITION", "beyond the end")),
     (sparse_indices_have_a_huge_offset, ("POSITION", "sparse")), (sparse_view_is_missing, ("buffer view 999",)),
+    (sparse_values_have_an_offset_of_33_bits, ("byteOffset is 4294967296",)), (sparse_indices_have_an_offset_of_33_bits, ("byteOffset is 4294967296",)),
+    (sparse_count_has_33_bits, ("count is 4294967297",)), (points_have_a_negative_offset, ("byteOffset is -4",)),
     (buffer_is_outside, ("secret.bin",))])
 def test_bad_assets_are_one_sentence(character, change, words):
     character.path.parent.joinpath("secret.bin").write_bytes(bytes(100000))

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cstdint>
 #include <filesystem>
+#include <iterator>
 #include <system_error>
 
 namespace bindpose
@@ -84,11 +85,28 @@ bool is_convertible(const std::string& format)
   return format == "bmp" || format == "tif" || format == "tga";
 }
 
+namespace
+{
+/// Report whether a path leaves the folder to which it is relative. The answer depends on its text
+/// only, so it does not tell whether a file outside of the folder exists.
+bool leaves_folder(const std::string& name, const std::string& folder)
+{
+  std::error_code error;
+  const auto root = (std::filesystem::absolute(folder, error) / "").lexically_normal();
+  const auto file = (root / name).lexically_normal();
+  const auto end = std::prev(root.end()); // the last part is empty
+  return std::mismatch(root.begin(), end, file.begin(), file.end()).first != end;
+}
+} // namespace
+
 Status read_picture_bytes(const std::string& uri, const std::string& folder, std::string& bytes)
 {
-  const std::string path = folder + "/" + decode_uri(uri);
+  const std::string name = decode_uri(uri);
+  const std::string path = folder + "/" + name;
   std::error_code error;
-  if (std::filesystem::exists(path, error) && !is_in_folder(path, folder))
+  if (leaves_folder(name, folder) ||
+    (std::filesystem::exists(path, error) && !std::filesystem::is_directory(path, error) &&
+      !is_in_folder(path, folder)))
   {
     throw GltfError("the image '" + sanitize_line(uri) + "' is not in the folder of the file");
   }

@@ -359,7 +359,7 @@ Status GltfAsset::replace_skins(ExecutionContext& context, GltfSkin& skin, Index
     const std::vector<Trs> local_transforms = local_maps(skin.joints, exact_maps, stored_maps);
     nodes = this->add_skeleton(skin.joints, local_transforms, packed.rest_joint);
   }
-  this->attach_skin(skin.joints, packed, nodes);
+  this->attach_skin(skin.joints, packed, nodes, own.has_value());
   remove_unused_skins(this->document_);
 
   Status status;
@@ -428,11 +428,66 @@ int GltfAsset::move_mesh_to_root(int id)
   return root;
 }
 
-/// Append one skin per transform from a mesh to the scene, and give the weights to the primitives.
-void GltfAsset::attach_skin(
-  const std::vector<GltfJoint>& joints, const GltfWeights& packed, const GltfJointNodes& nodes)
+/// Give nodes that are not edited, such as those of another scene, copies of the meshes whose
+/// weights are replaced.
+void GltfAsset::copy_meshes_of_other_nodes()
 {
-  std::map<std::vector<double>, int> skins; // by the transform from the mesh to the scene
+  Json& nodes = this->document_.list("nodes");
+  std::set<std::size_t> edited_nodes;
+  std::map<int, int> copies; // of the edited meshes; -1: no copy yet
+  for (const GltfPart& part : this->meshes_.parts)
+  {
+    edited_nodes.insert(static_cast<std::size_t>(part.node));
+    copies.insert({ nodes[part.node]["mesh"].get<int>(), -1 });
+  }
+  for (std::size_t id = 0; id < nodes.size(); ++id)
+  {
+    if (edited_nodes.count(id) > 0 || !nodes[id].contains("mesh"))
+    {
+      continue;
+    }
+    const auto copy = copies.find(nodes[id]["mesh"].get<int>());
+    if (copy == copies.end())
+    {
+      continue;
+    }
+    if (copy->second < 0)
+    {
+      const Json mesh = this->document_.list("meshes")[copy->first];
+      copy->second = this->document_.append("meshes", mesh);
+    }
+    nodes[id]["mesh"] = copy->second;
+  }
+}
+
+/// Copy all properties of a skin that do not refer to its joints.
+void GltfAsset::keep_skin_properties(std::size_t from, int to)
+{
+  Json& skins = this->document_.list("skins");
+  if (from >= skins.size())
+  {
+    throw GltfError("skin " + std::to_string(from) + " does not exist");
+  }
+  for (const auto& entry : skins[from].items())
+  {
+    const std::string& name = entry.key();
+    if (name != "joints" && name != "skeleton" && name != "inverseBindMatrices")
+    {
+      skins[to][name] = entry.value();
+    }
+  }
+}
+
+/// Append one skin per old skin and transform from a mesh to the scene, and give the weights to the
+/// primitives.
+/// @param keeps_joints whether the joints are those of the file; then a skin keeps its name, extras
+/// and extensions
+void GltfAsset::attach_skin(const std::vector<GltfJoint>& joints, const GltfWeights& packed,
+  const GltfJointNodes& nodes, bool keeps_joints)
+{
+  this->copy_meshes_of_other_nodes();
+  // by the skin whose properties are kept (-1: none) and the transform from the mesh to the scene
+  std::map<std::pair<int, std::vector<double>>, int> skins;
   std::map<Index, Json> attributes_of_vertices; // by the first vertex
   std::set<int> edited_meshes;
   int last_node = -1, mesh_node = -1;
@@ -442,11 +497,18 @@ void GltfAsset::attach_skin(
     {
       last_node = part.node;
       const Eigen::Matrix4d map = this->meshes_.mesh_to_scene[part.node].matrix();
-      const auto [skin, is_new] = skins.insert({ { map.data(), map.data() + map.size() }, -1 });
+      const int old_skin =
+        keeps_joints ? this->document_.list("nodes")[part.node].value("skin", -1) : -1;
+      const auto [skin, is_new] =
+        skins.insert({ { old_skin, { map.data(), map.data() + map.size() } }, -1 });
       if (is_new)
       {
         skin->second =
           append_skin(this->document_, joints, nodes, this->meshes_.mesh_to_scene[part.node]);
+        if (old_skin >= 0)
+        {
+          this->keep_skin_properties(static_cast<std::size_t>(old_skin), skin->second);
+        }
       }
       mesh_node = this->is_converted_ ? this->move_mesh_to_root(part.node) : part.node;
       Json& node = this->document_.list("nodes")[mesh_node];

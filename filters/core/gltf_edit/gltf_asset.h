@@ -104,8 +104,10 @@ private:
   void report_losses(bool keeps_joints, Status& status) const;
   /// Move the mesh of a node to a root node without a transform, and return this node.
   int move_mesh_to_root(int id);
-  void attach_skin(
-    const std::vector<GltfJoint>& joints, const GltfWeights& packed, const GltfJointNodes& nodes);
+  void copy_meshes_of_other_nodes();
+  void keep_skin_properties(std::size_t from, int to);
+  void attach_skin(const std::vector<GltfJoint>& joints, const GltfWeights& packed,
+    const GltfJointNodes& nodes, bool keeps_joints);
 
   std::string path_; ///< the file, for messages
   bool is_converted_ = false; ///< whether the file was made from a file of another format

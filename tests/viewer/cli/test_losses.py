@@ -1,5 +1,7 @@
 """bindpose rig: a glTF file that comes back loses nothing. The test prints the list of losses, which is empty."""
 
+import json
+
 import pytest
 import rich_asset
 from asset_losses import Asset, list_additions, list_losses
@@ -96,3 +98,34 @@ def test_the_list_names_each_loss(tmp_path, change, path):
     change(after)
     losses = list_losses(before, after)
     assert losses and any(line.startswith(path) for line in losses), losses
+
+
+def test_a_scene_with_the_old_skin_of_an_edited_mesh(folder):
+    """Only the default scene gets new joints. A node of another scene that has the same mesh keeps its skin and weights."""
+    rich_asset.write(folder / "rich.gltf")
+    before = Asset(folder / "rich.gltf")
+    before.json["scenes"][1]["nodes"].insert(0, 0)  # the joints
+    before.json["nodes"][9].update(mesh=0, skin=0)
+    folder.write("two.gltf", json.dumps(before.json))
+    folder.run("rig", "two.gltf", "-o", "out.glb", "--handles", "auto:3", "--domain", "surface").is_good()
+    after = Asset(folder / "out.glb")
+
+    def skinned_content(file):
+        node = file.json["nodes"][9]
+        attributes = file.json["meshes"][node["mesh"]]["primitives"][0]["attributes"]
+        return (file.json["skins"][node["skin"]]["joints"],
+                [file.accessor(attributes[name])["elements"] for name in ("POSITION", "JOINTS_0", "WEIGHTS_0")])
+
+    assert skinned_content(after) == skinned_content(before)
+
+
+def test_a_skin_whose_joints_are_kept(folder):
+    """A skin that gets new weights for its own joints keeps its name and extras."""
+    rich_asset.write(folder / "rich.gltf")
+    before = Asset(folder / "rich.gltf")
+    before.json["skins"][0].update(name="body rig", extras=rich_asset.extras("skin"))
+    folder.write("named.gltf", json.dumps(before.json))
+    folder.run("rig", "named.gltf", "-o", "out.glb", "--handles", "named.gltf", "--domain", "surface").is_good()
+    after = Asset(folder / "out.glb")
+    skin = after.json["skins"][after.json["nodes"][3]["skin"]]
+    assert (skin["name"], skin.get("extras")) == ("body rig", rich_asset.extras("skin"))

@@ -115,6 +115,14 @@ def test_a_3mf_file_without_a_model(folder):
     folder.run("rig", "other.3mf", "-o", "out.glb").is_refused("other.3mf", "no triangles")
 
 
+def test_values_of_a_3mf_file_that_are_not_valid(folder):
+    model = asset_files.three_mf_model(shapes.cube(), items=((1, np.eye(4)),))
+    folder.write("index.3mf", asset_files.three_mf(model.replace('v2="4"', 'v2="5000"', 1)))
+    folder.run("rig", "index.3mf", "-o", "out.glb").is_refused("refers to vertex 5000, but it has 8 vertices")
+    folder.write("infinite.3mf", asset_files.three_mf(model.replace('x="-1.0"', 'x="-1e400"', 1)))
+    folder.run("rig", "infinite.3mf", "-o", "out.glb").is_refused("a coordinate that is not finite")
+
+
 def test_a_3mf_object_that_contains_itself(folder):
     """The library recurses without end. Only the separate process crashes."""
     model = MODEL.replace('item objectid="1"', 'item objectid="2"')

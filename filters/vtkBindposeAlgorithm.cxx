@@ -541,15 +541,25 @@ void vtkBindposeAlgorithm::ReportProgress(double fraction, const std::string& ph
 bool vtkBindposeAlgorithm::ExecuteDirectly(
   const std::function<bindpose::Status(bindpose::ExecutionContext& context)>& work)
 {
+  this->WithContext(
+    [&](bindpose::ExecutionContext& context)
+    {
+      *this->LastStatus = status_of([&]() { return work(context); });
+      bindpose::add_outcome(*this->LastStatus);
+      this->LastStatus->report.merge(context.seconds());
+    });
+  return this->LastStatus->usable();
+}
+
+void vtkBindposeAlgorithm::WithContext(
+  const std::function<void(bindpose::ExecutionContext& context)>& work)
+{
   this->SetAbortExecute(0); // the executive also clears the abort flag before an execution
   bindpose::ExecutionContext context([this](double fraction, const std::string& phase)
     { this->ReportProgress(fraction, phase); },
     [this]() { return this->GetAbortExecute() != 0; });
   context.set_threads(this->NumberOfThreads);
-  *this->LastStatus = status_of([&]() { return work(context); });
-  bindpose::add_outcome(*this->LastStatus);
-  this->LastStatus->report.merge(context.seconds());
-  return this->LastStatus->usable();
+  work(context);
 }
 
 void vtkBindposeAlgorithm::PrintSelf(ostream& os, vtkIndent indent)

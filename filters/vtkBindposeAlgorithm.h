@@ -191,6 +191,13 @@ protected:
   bool ExecuteDirectly(
     const std::function<bindpose::Status(bindpose::ExecutionContext& context)>& work);
 
+  /**
+   * Do work that has no status, such as reading the time steps of a file in RequestInformation(),
+   * with the filter's number of threads, abort flag and progress events. An abort before this call
+   * has no effect.
+   */
+  void WithContext(const std::function<void(bindpose::ExecutionContext& context)>& work);
+
 private:
   vtkBindposeAlgorithm(const vtkBindposeAlgorithm&) = delete;
   void operator=(const vtkBindposeAlgorithm&) = delete;

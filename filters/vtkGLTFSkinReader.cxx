@@ -47,12 +47,15 @@ int vtkGLTFSkinReader::RequestInformation(
 {
   int frames = 0;
   // Ignore the status here; Execute() reports errors of the file.
-  ExecutionContext context;
   if (this->Frame < 0 && this->FileName &&
-    check_extension(this->FileName, GetFileExtensions()).ok() &&
-    this->Internal->file.read(context, this->FileName).ok())
+    check_extension(this->FileName, GetFileExtensions()).ok())
   {
-    frames = static_cast<int>(this->Internal->file.data().poses.size());
+    this->WithContext(
+      [&](ExecutionContext& context)
+      {
+        const bool is_read = this->Internal->file.read(context, this->FileName).ok();
+        frames = is_read ? static_cast<int>(this->Internal->file.data().poses.size()) : 0;
+      });
   }
   for (int port = 0; port < 2; ++port)
   {

@@ -160,12 +160,15 @@ int vtkPoseHandles::RequestInformation(
   // Ignore errors of the file or the text here; Execute() reports them.
   if (this->HasExtension(motion_extensions()))
   {
-    ExecutionContext context;
-    HandleMotion motion;
-    if (this->Internal->motion.read(context, this->FileName, motion).ok())
-    {
-      set_frame_times(info, motion.frames, motion.frames_per_second);
-    }
+    this->WithContext(
+      [&](ExecutionContext& context)
+      {
+        HandleMotion motion;
+        if (this->Internal->motion.read(context, this->FileName, motion).ok())
+        {
+          set_frame_times(info, motion.frames, motion.frames_per_second);
+        }
+      });
     return 1;
   }
   Internals& cache = *this->Internal;

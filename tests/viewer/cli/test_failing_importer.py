@@ -130,8 +130,7 @@ def test_the_time_limit(files):
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-@pytest.mark.parametrize("use", [use for use in USES if use != "motion"] + [
-    pytest.param("motion", marks=pytest.mark.xfail(strict=True, reason="vtkPoseHandles reads a motion without cancel"))])
+@pytest.mark.parametrize("use", USES)
 def test_cancel_ends_the_importer(files, use, number):
     environment = stand_in(files, VARIABLE, SLEEP)
     before = sorted(os.listdir(files.path))

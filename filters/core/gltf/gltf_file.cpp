@@ -68,9 +68,14 @@ Status read_gltf_file(ExecutionContext& context, const std::string& path,
       {
         status = decompress_guarded(context, path, compression.buffer_files, bytes);
       }
-      return status.ok()
-        ? parse_and_use(path, std::move(bytes), std::move(compression.buffer_files), use)
-        : status;
+      if (!status.ok())
+      {
+        return status;
+      }
+      const std::vector<std::string> warnings = std::move(status.warnings);
+      status = parse_and_use(path, std::move(bytes), std::move(compression.buffer_files), use);
+      status.warnings.insert(status.warnings.begin(), warnings.begin(), warnings.end());
+      return status;
     });
 }
 

@@ -79,7 +79,7 @@ def test_the_program_uses_the_data_of_the_importer(files):
         run = files.run("rig", name, *words, environment=environment).is_good()
         points = GltfFile(files / "out.glb").attribute(0, "POSITION")
         np.testing.assert_array_equal(points, GltfFile(files / "bar.glb").attribute(0, "POSITION"))
-    assert run.err.count("warning: the paint is left out") == 1
+        assert run.err.count("warning: the paint is left out") == 1
 
 
 @pytest.mark.parametrize("use", USES)

@@ -14,9 +14,10 @@ namespace bindpose
 
 namespace
 {
-/// Maximum number of triangles for conforming tets. For surfaces with more triangles, a lattice of
-/// about 30,000 tets is cheaper.
-constexpr Index maximum_triangles = 20000;
+/// Maximum number of triangles for conforming tets. Tets for weights had 3 to 5 times as many
+/// vertices as surfaces of scanned and modeled shapes, so reason_against_tets() would reject the
+/// tets of larger surfaces.
+constexpr Index maximum_triangles = 9600;
 /// A triangle with an angle below this counts as badly shaped, because a tet at such a triangle is
 /// badly shaped, too. A tet counts as badly shaped if a dihedral angle is below 5 degrees.
 constexpr double bad_angle = 2.0; // degrees

@@ -17,7 +17,7 @@
 #   unclean      tets of random unclean surfaces
 #   fuzz         libFuzzer under sanitizers, 10 minutes per target: all targets if named, a seventh of them in a whole night
 #   drags        random poses
-#   scale        all verbs on a million triangles, completed and interrupted
+#   scale        all verbs on a million triangles, completed and interrupted; rig on textured characters
 #   hostile      weights and tets of synthetic models with severe defects
 #   real         weights and tets of an eighth of the real furniture models
 #   paraview     the plugin in ParaView
@@ -192,7 +192,8 @@ drags()
 
 scale()
 {
-  /usr/bin/python3 "$root/tests/support/measure_scale.py" --build "$build_dir" --millions 1 --cancel 2
+  /usr/bin/python3 "$root/tests/support/measure_scale.py" --build "$build_dir" --millions 1 --cancel 2 &&
+    /usr/bin/python3 "$root/tests/support/measure_rig.py" --build "$build_dir" --check
 }
 
 hostile()

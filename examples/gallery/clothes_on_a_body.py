@@ -11,13 +11,9 @@ largest difference of the weights along an edge of the skirt; the stretch of its
 and at most. For inpainting: the fraction of matched points, the largest relative gap of the certificates, seconds.
 """
 
-import time
-import warnings
-
 import common
-import bindpose
 import numpy as np
-from bindpose.meshes import point_array, points_of, to_dataset
+import worn_shapes
 
 CENTER = (-0.02, -0.02)  # of the waist; the body is 1 high, with z up, and its center is the origin
 
@@ -33,16 +29,8 @@ def skirt(around, rows):
     return points, np.concatenate([np.stack([a, a + around, b], axis=1), np.stack([b, a + around, b + around], axis=1)])
 
 
-def edges_of(triangles):
-    edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-    return np.unique(np.sort(edges, axis=1), axis=0)
-
-
-def bones_by_place(handles):
+def bones_by_position(ends, names):
     """Return the names of the arm bones, and of the thigh on the left side of the body (positive x)."""
-    points = points_of(handles)
-    ends = points[-2 * handles.GetNumberOfLines():].reshape(-1, 2, 3)
-    names = [handles.GetCellData().GetAbstractArray("HandleName").GetValue(k) for k in range(handles.GetNumberOfCells())]
     middles = dict(zip(names, ends.mean(axis=1)))
     arms = [name for name, (x, _, z) in middles.items() if abs(x) > 0.08 and z > -0.05]
     thigh = max((name for name, (x, _, z) in middles.items() if x > 0 and -0.3 < z < -0.05),
@@ -51,46 +39,16 @@ def bones_by_place(handles):
 
 
 def make(options):
-    body = common.demo_mesh(options, "man.off")
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", bindpose.BindposeWarning)  # fingers are finer than the lattice
-        handles = bindpose.automatic_handles(body, maximum_bones=20)
-        weighted = bindpose.weights(body, handles, embedding_resolution=20 if options.small else 0)
-    names = [handles.GetCellData().GetAbstractArray("HandleName").GetValue(k) for k in range(handles.GetNumberOfCells())]
-    arms, thigh = bones_by_place(handles)
+    weighted, handles, names = worn_shapes.body_with_bones(options)
+    arms, thigh = bones_by_position(worn_shapes.ends_of(handles), names)
+    arm_columns = [names.index(name) for name in arms]
     pose = {"handles": {thigh: {"rotate": {"axis": [1, 0, 0], "degrees": -45}}}}
-    points, triangles = skirt(*((48, 30) if options.small else (120, 75)))
-    edges = edges_of(triangles)
-    lengths = np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1)
-    bindpose.write(weighted, options.scratch / "body.vtp")
-    bindpose.write(bindpose.deform(weighted, handles, pose), options.scratch / "body_posed.vtp")
-    bindpose.write(handles, options.scratch / "bones.vtp")
+    shape = skirt(*((48, 30) if options.small else (120, 75)))
     numbers = {"bones": len(names), "arm bones": len(arms)}
-    for method in ("nearest", "inpaint"):
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", bindpose.BindposeWarning)  # points of the skirt are far from the body
-            begun = time.perf_counter()
-            result = bindpose.transfer_weights(to_dataset((points, triangles)), weighted, method=method)
-            seconds = time.perf_counter() - begun
-        values = point_array(result, "Weights")
-        posed = bindpose.deform(result, handles, pose)
-        moved = points_of(posed)
-        stretch = np.linalg.norm(moved[edges[:, 0]] - moved[edges[:, 1]], axis=1) / lengths
-        numbers[f"{method}: largest weight of an arm bone"] = float(values[:, [names.index(name) for name in arms]].max())
-        numbers[f"{method}: largest difference along an edge"] = float(np.abs(values[edges[:, 0]] - values[edges[:, 1]]).max())
-        numbers[f"{method}: stretch of edges, 99 %"] = float(np.percentile(stretch, 99))
-        numbers[f"{method}: stretch of edges, largest"] = float(stretch.max())
-        if method == "inpaint":
-            report = bindpose.report(result)
-            numbers["inpaint: matched fraction"] = report["matched_fraction"]
-            numbers["inpaint: largest relative gap"] = report["relative_gap"]
-            numbers["inpaint: seconds"] = seconds
-        bindpose.write(result, options.scratch / f"{method}.vtp")
-        bindpose.write(posed, options.scratch / f"{method}_posed.vtp")
-    common.render(options, "body.vtp", "nearest.vtp", "inpaint.vtp", "body_posed.vtp", "nearest_posed.vtp", "inpaint_posed.vtp",
-                  "--color", "handle", "--columns", 3, "--size", "1500x1300", "--up", "z", "--azimuth", 0, "--elevation", 10,
-                  "--labels", "body,nearest point,matched and inpainted,left leg raised,nearest point,matched and inpainted",
-                  "--title", "The largest bone at each point of a skirt")
+    numbers.update(worn_shapes.compare_methods(
+        options, shape, weighted, handles, pose,
+        lambda weights: {"largest weight of an arm bone": weights[:, arm_columns].max()}))
+    worn_shapes.render_methods(options, "left leg raised", "The largest bone at each point of a skirt")
     return numbers
 
 

@@ -7,7 +7,7 @@ import pytest
 from running import EXAMPLES, is_refused, numbers_of, script
 
 GALLERY = EXAMPLES / "gallery"
-NAMES = ["amount_of_insideness", "automatic_handles", "bent_elbow", "bent_furniture",
+NAMES = ["amount_of_insideness", "armor_on_a_character", "automatic_handles", "bent_elbow", "bent_furniture",
          "boundary_and_parts", "candy_wrapper", "closing_holes", "clothes_on_a_body", "colors_of_handles",
          "cost_of_a_point", "cost_of_weights", "crowd", "cut_out_cartoon", "defect_classes", "disjoint_skeleton", "drag_only",
          "dragged_points", "extra_weights", "four_energies", "full_and_reduced", "growth", "handle_modes",
@@ -488,7 +488,7 @@ def test_what_is_wrong_is_one_sentence(tmp_path):
 
 def test_the_readme_has_them_all():
     text = (GALLERY / "README.md").read_text()
-    scripts = {path.stem for path in GALLERY.glob("*.py")} - {"charts", "common", "meshes", "planar", "posing", "refresh"}
+    scripts = {path.stem for path in GALLERY.glob("*.py")} - {"charts", "common", "meshes", "planar", "posing", "refresh", "worn_shapes"}
     assert scripts == set(NAMES)
     for name in [*NAMES, "inside_outside"]:
         assert f"](../pictures/{name}.png)" in text
@@ -529,6 +529,14 @@ def test_clothes_on_a_body(tmp_path):
     assert numbers["nearest: largest weight of an arm bone"] > 0.9  # a hand is the nearest part
     assert numbers["inpaint: largest weight of an arm bone"] < 0.01
     assert numbers["inpaint: stretch of edges, largest"] < 0.5 * numbers["nearest: stretch of edges, largest"]
+    assert numbers["inpaint: largest relative gap"] <= 1e-6 and 0 < numbers["inpaint: matched fraction"] < 1
+
+
+def test_armor_on_a_character(tmp_path):
+    numbers = numbers_of("gallery/armor_on_a_character.py", tmp_path)
+    assert numbers["plates"] >= 4
+    assert numbers["inpaint: largest leak of a plate"] < 0.5 * numbers["nearest: largest leak of a plate"]
+    assert numbers["inpaint: stretch of edges, largest"] <= numbers["nearest: stretch of edges, largest"]
     assert numbers["inpaint: largest relative gap"] <= 1e-6 and 0 < numbers["inpaint: matched fraction"] < 1
 
 

@@ -88,8 +88,7 @@ SparseMatrix biharmonic_energy(const SolvedMesh& mesh, bool uniform)
 {
   if (!uniform)
   {
-    const ScaledMesh scaled = scale_mesh(mesh);
-    return harmonic_energy(scaled.stiffness, scaled.mass, 2);
+    return harmonic_energy(mesh.scaled.stiffness, mesh.scaled.mass, 2);
   }
   const VertexGraph graph = vertex_graph(mesh.domain);
   const Index n = mesh.domain.points.rows();

@@ -60,6 +60,17 @@ void merge_surface(const Domain& target, SolvedMesh& mesh)
   }
 }
 
+/// Scale the mesh. Only vertices of parts are in the bounding box.
+ScaledMesh scale_parts(const SolvedMesh& mesh)
+{
+  std::vector<char> used(mesh.parts.component_of_vertex.size());
+  for (std::size_t v = 0; v < used.size(); ++v)
+  {
+    used[v] = mesh.parts.component_of_vertex[v] >= 0;
+  }
+  return scale_mesh(mesh.domain, used);
+}
+
 /// Clear `matched` in groups that are smaller than `smallest_group` times the largest group in
 /// their part.
 void clear_small_groups(double smallest_group, SolvedMesh& mesh)
@@ -75,7 +86,7 @@ void clear_small_groups(double smallest_group, SolvedMesh& mesh)
   {
     waiting[v] = mesh.matched[v] && mesh.parts.component_of_vertex[v] >= 0;
   }
-  const Eigen::VectorXd sizes = scale_mesh(mesh).mass;
+  const Eigen::VectorXd& sizes = mesh.scaled.mass;
   const VertexGraph graph = vertex_graph(mesh.domain);
   std::vector<Group> groups;
   std::vector<double> largest(static_cast<std::size_t>(mesh.parts.count), 0.0); // of each part
@@ -152,21 +163,12 @@ Status make_solved_mesh(
       mesh.matched[v] = match.matched[i];
     }
   }
-  if (smallest_group > 0.0 && mesh.parts.count > 0)
+  if (mesh.parts.count > 0)
   {
+    mesh.scaled = scale_parts(mesh);
     clear_small_groups(smallest_group, mesh);
   }
   return {};
-}
-
-ScaledMesh scale_mesh(const SolvedMesh& mesh)
-{
-  std::vector<char> used(mesh.parts.component_of_vertex.size());
-  for (std::size_t v = 0; v < used.size(); ++v)
-  {
-    used[v] = mesh.parts.component_of_vertex[v] >= 0;
-  }
-  return scale_mesh(mesh.domain, used);
 }
 
 } // namespace bindpose

@@ -20,6 +20,8 @@ struct SolvedMesh
   /// #V: 1 if one of the points at the vertex matches, and the vertex is in no small group
   std::vector<char> matched;
   Components parts;
+  ScaledMesh
+    scaled; ///< see scale_mesh(); the vertices of parts are in its box; empty without parts
   Index small_group_count = 0;
 };
 
@@ -30,9 +32,6 @@ struct SolvedMesh
 /// of tets.
 Status make_solved_mesh(
   const Domain& target, const SurfaceMatch& match, double smallest_group, SolvedMesh& mesh);
-
-/// Scale the mesh by scale_mesh(). Only vertices of parts are in the bounding box.
-ScaledMesh scale_mesh(const SolvedMesh& mesh);
 
 } // namespace bindpose
 

@@ -88,7 +88,7 @@ bool is_convertible(const std::string& format)
 namespace
 {
 /// Report whether a path leaves the folder to which it is relative. The answer depends on its text
-/// only, so it does not tell whether a file outside of the folder exists.
+/// only, not on whether a file outside of the folder exists.
 bool leaves_folder(const std::string& name, const std::string& folder)
 {
   std::error_code error;

@@ -16,7 +16,9 @@ certificates, seconds.
 import common
 import numpy as np
 import worn_shapes
-from bindpose.meshes import point_array, points_of, triangles_of
+from bindpose.meshes import point_array, points_of, to_dataset, triangles_of
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkFiltersCore import vtkConnectivityFilter
 
 GAP, THICKNESS = 0.012, 0.012  # the body is 1 high
 LEAST_WEIGHT = 0.75  # weight of a bone on the skin below its plate
@@ -31,16 +33,14 @@ def vertex_normals(points, triangles):
     return normals / np.maximum(np.linalg.norm(normals, axis=1), 1e-300)[:, None]
 
 
-def largest_part(triangles, count):
+def largest_part(points, triangles):
     """Return the triangles of the largest connected part."""
-    labels = np.arange(count)
-    before = None
-    while before is None or (labels != before).any():
-        before = labels.copy()
-        smallest = labels[triangles].min(axis=1)
-        for corner in triangles.T:
-            np.minimum.at(labels, corner, smallest)
-    of_triangle = labels[triangles[:, 0]]
+    parts = vtkConnectivityFilter()
+    parts.SetInputData(to_dataset((points, triangles)))
+    parts.SetExtractionModeToAllRegions()
+    parts.ColorRegionsOn()
+    parts.Update()
+    of_triangle = vtk_to_numpy(parts.GetOutput().GetCellData().GetArray("RegionId"))
     return triangles[of_triangle == np.bincount(of_triangle).argmax()]
 
 
@@ -65,7 +65,7 @@ def plates(skin, skin_triangles, weights):
     bones, skins = [], {}
     for bone in range(weights.shape[1]):
         covered = skin_triangles[(weights[skin_triangles, bone] > LEAST_WEIGHT).all(axis=1)]
-        covered = largest_part(covered, len(skin)) if len(covered) else covered
+        covered = largest_part(skin, covered) if len(covered) else covered
         if len(covered) >= LEAST_TRIANGLES:
             shell, faces = plate(skin, normals, covered)
             triangles = np.concatenate([triangles, faces + len(points)])

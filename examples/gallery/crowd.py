@@ -16,6 +16,7 @@ import colorsys
 import common
 import bindpose
 import numpy as np
+from bindpose.handle_sets import cell_names
 from bindpose.meshes import points_of
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints
@@ -92,7 +93,7 @@ def make(options):
     size = float(np.linalg.norm(np.ptp(points_of(mesh), axis=0)))
     handles = bindpose.farthest_point_handles(mesh, 8 if options.small else 20)
     dragged = 4 if options.small else 8
-    names = [handles.GetCellData().GetAbstractArray("HandleName").GetValue(k) for k in range(handles.GetNumberOfCells())]
+    names = cell_names(handles)
     weighted = bindpose.weights(mesh, handles, domain="embedding")
 
     instances = places(size)

@@ -16,6 +16,7 @@ import common
 import bindpose
 import numpy as np
 import planar
+from bindpose.handle_sets import cell_names
 from bindpose.meshes import points_of, triangles_of
 
 SIZE = 256  # of the picture, in pixels
@@ -58,7 +59,7 @@ def make(options):
         handles = bindpose.automatic_handles(asset.mesh, maximum_bones=20)
         weighted = bindpose.weights(asset.mesh, handles, embedding_resolution=20 if options.small else 0)
     bindpose.write_rig(weighted, handles, options.scratch / "rigged.glb", asset=options.scratch / "painted.obj")
-    names = [handles.GetCellData().GetAbstractArray("HandleName").GetValue(k) for k in range(handles.GetNumberOfCells())]
+    names = cell_names(handles)
     middles = dict(zip(names, points_of(handles)[-2 * len(names):].reshape(-1, 2, 3).mean(axis=1)))
     arm = max((name for name in names if middles[name][2] > 0.1), key=lambda name: middles[name][0])
     thigh = max((name for name in names if -0.3 < middles[name][2] < -0.05), key=lambda name: middles[name][0])

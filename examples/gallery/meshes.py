@@ -33,6 +33,12 @@ def circle(radius, count=64):
     return np.stack([radius * np.cos(angle), radius * np.sin(angle), 0 * angle], axis=1)
 
 
+def edges_of(triangles):
+    """Return the edges of triangles, #E x 2, each once."""
+    edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    return np.unique(np.sort(edges, axis=1), axis=0)
+
+
 def subdivided(mesh, times):
     """Split each triangle into four at its edge midpoints, `times` times. The surface does not change."""
     vertices, triangles = map(np.asarray, mesh)

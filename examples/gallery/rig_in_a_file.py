@@ -13,6 +13,7 @@ weights are stored; the largest error of both files over all frames, as measured
 import common
 import bindpose
 import numpy as np
+from bindpose.handle_sets import cell_names
 from bindpose.meshes import points_of
 
 FRAMES = 5
@@ -20,8 +21,7 @@ FRAMES = 5
 
 def poses(handles, size):
     """Return poses in which handles swing about the middle, each in a different way, with increasing amplitude."""
-    count = handles.GetNumberOfCells()
-    names = [handles.GetCellData().GetAbstractArray("HandleName").GetValue(k) for k in range(count)]
+    names = cell_names(handles)
     frames = []
     for k in range(FRAMES):
         share = k / (FRAMES - 1)

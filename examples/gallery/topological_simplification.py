@@ -14,6 +14,7 @@ import common
 import bindpose
 import numpy as np
 from bindpose.meshes import add_point_array, to_dataset
+from meshes import edges_of
 from new_hues import grid
 
 HILLS = ((0.25, 0.3, 1.0), (0.7, 0.65, 0.8), (0.75, 0.2, -0.7), (0.25, 0.75, -0.5))  # position and height of each hill
@@ -27,11 +28,6 @@ def noise(squares):
         values = np.apply_along_axis(np.convolve, axis, values, [1, 2, 1], "same")
     values -= values.mean()
     return NOISE * values.ravel() / np.sqrt(np.mean(values ** 2))
-
-
-def edges(triangles):
-    pairs = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-    return np.unique(np.sort(pairs, axis=1), axis=0)
 
 
 def are_extrema(values, listed, pairs):
@@ -70,7 +66,7 @@ def make(options):
         report = bindpose.report(values)
         numbers[f"{name}: relative gap"] = report["relative_gap"]
         numbers[f"{name}: rms distance to the data without noise"] = float(np.sqrt(np.mean((values - smooth) ** 2)) / np.ptp(smooth))
-        numbers[f"{name}: all listed vertices are extrema"] = are_extrema(values, report["extrema"], edges(triangles))
+        numbers[f"{name}: all listed vertices are extrema"] = are_extrema(values, report["extrema"], edges_of(triangles))
     return numbers
 
 

@@ -6,7 +6,9 @@ import warnings
 import bindpose
 import common
 import numpy as np
+from bindpose.handle_sets import cell_names
 from bindpose.meshes import point_array, points_of, to_dataset
+from meshes import edges_of
 
 
 def body_with_bones(options):
@@ -16,18 +18,12 @@ def body_with_bones(options):
         warnings.simplefilter("ignore", bindpose.BindposeWarning)  # fingers are finer than the lattice
         handles = bindpose.automatic_handles(body, maximum_bones=20)
         weighted = bindpose.weights(body, handles, embedding_resolution=20 if options.small else 0)
-    names = [handles.GetCellData().GetAbstractArray("HandleName").GetValue(k) for k in range(handles.GetNumberOfCells())]
-    return weighted, handles, names
+    return weighted, handles, cell_names(handles)
 
 
 def ends_of(handles):
     """Return the ends of the bones, #bones x 2 x 3."""
     return points_of(handles)[-2 * handles.GetNumberOfLines():].reshape(-1, 2, 3)
-
-
-def edges_of(triangles):
-    edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-    return np.unique(np.sort(edges, axis=1), axis=0)
 
 
 def compare_methods(options, shape, weighted, handles, pose, leak):

@@ -11,7 +11,6 @@ import sys
 
 import bpy
 import numpy
-from mathutils import Vector
 
 if "bool" not in numpy.__dict__:
     numpy.bool = bool
@@ -75,17 +74,25 @@ def cross_of_boxes():
     return points, faces
 
 
-def add_armature():
-    data = bpy.data.armatures.new("rig")
-    armature = bpy.data.objects.new("rig", data)
+def add_bones(name, bones):
+    """Add an armature. A bone is {name: (parent or None, head, tail)}; parents come first."""
+    data = bpy.data.armatures.new(name)
+    armature = bpy.data.objects.new(name, data)
     bpy.context.collection.objects.link(armature)
     select(armature)
     bpy.ops.object.mode_set(mode="EDIT")
-    for name, head, tail in (("lower", 0.2, 3), ("upper", 3, 5.8), ("control", 8, 9)):
-        bone = data.edit_bones.new(name)
-        bone.head, bone.tail = Vector((head, 0, 0)), Vector((tail, 0, 0))
-    data.edit_bones["control"].use_deform = False
+    for bone_name, (parent, head, tail) in bones.items():
+        bone = data.edit_bones.new(bone_name)
+        bone.head, bone.tail = head, tail
+        bone.parent = data.edit_bones[parent] if parent else None
     bpy.ops.object.mode_set(mode="OBJECT")
+    return armature
+
+
+def add_armature():
+    armature = add_bones("rig", {name: (None, (head, 0, 0), (tail, 0, 0))
+                                 for name, head, tail in (("lower", 0.2, 3), ("upper", 3, 5.8), ("control", 8, 9))})
+    armature.data.bones["control"].use_deform = False
     return armature
 
 

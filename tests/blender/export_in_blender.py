@@ -14,26 +14,12 @@ import bpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
-from addon_in_blender import add_mesh, cross_of_boxes, select, weights_of  # noqa: E402
+from addon_in_blender import add_bones, add_mesh, cross_of_boxes, weights_of  # noqa: E402
 
 BONES = {"root": (None, (0, 0, -3.5), (0, 0, 0)), "spine": ("root", (0, 0, 0), (0, 0, 1.8)),
          "arm.L": ("spine", (0.3, 0, 0), (2.8, 0, 0)), "arm.R": ("spine", (-0.3, 0, 0), (-2.8, 0, 0))}
 FRAMES = (1, 13, 25)  # at 24 frames per second: at 0, 0.5 and 1 seconds
 DEGREES = {"spine": (0, 20, -10), "arm.L": (0, 35, 70), "arm.R": (0, -25, 15)}  # around the bone's x axis, at the frames
-
-
-def add_armature():
-    data = bpy.data.armatures.new("skeleton")
-    armature = bpy.data.objects.new("skeleton", data)
-    bpy.context.collection.objects.link(armature)
-    select(armature)
-    bpy.ops.object.mode_set(mode="EDIT")
-    for name, (parent, head, tail) in BONES.items():
-        bone = data.edit_bones.new(name)
-        bone.head, bone.tail = head, tail
-        bone.parent = data.edit_bones[parent] if parent else None
-    bpy.ops.object.mode_set(mode="OBJECT")
-    return armature
 
 
 def add_character(armature):
@@ -88,7 +74,7 @@ def states(thing, armature):
 def main():
     folder = pathlib.Path(sys.argv[sys.argv.index("--") + 1])
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    armature = add_armature()
+    armature = add_bones("skeleton", BONES)
     thing = add_character(armature)
     animate(armature)
     found = {"weights": weights_of(thing), "parents": {name: parent for name, (parent, _, _) in BONES.items()}}

@@ -12,7 +12,6 @@ import argparse
 import json
 import pathlib
 import statistics
-import struct
 import subprocess
 import sys
 import tempfile
@@ -20,9 +19,13 @@ import time
 
 import numpy as np
 import vtk
-from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
-from all_surfaces import real_surfaces
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "viewer" / "cli"))
+
+from all_surfaces import read_off, real_surfaces  # noqa: E402
+from gltf_file import glb_bytes  # noqa: E402
+from scale_surfaces import as_polydata, points_and_triangles, through  # noqa: E402
 
 CHARACTERS = ("man.off", "armadillo.off", "elephant.off")
 LIMITS = {10_000: 6.0, 100_000: 15.0}  # seconds by triangles
@@ -30,36 +33,15 @@ LARGEST = 100_000_000  # file size in bytes; larger files are skipped
 PICTURE = 1024  # pixels along a side
 
 
-def read_surface(path):
-    words = path.read_text().split("OFF", 1)[1].split()
-    count, faces = int(words[0]), int(words[1])
-    points = np.array(words[3:3 + 3 * count], float).reshape(-1, 3)
-    corners = np.array(words[3 + 3 * count:3 + 3 * count + 4 * faces], np.int64).reshape(-1, 4)
-    surface = vtk.vtkPolyData()
-    surface.SetPoints(vtk.vtkPoints())
-    surface.GetPoints().SetData(numpy_to_vtk(points, deep=True))
-    cells = vtk.vtkCellArray()
-    cells.ImportLegacyFormat(numpy_to_vtkIdTypeArray(corners.ravel(), deep=True))
-    surface.SetPolys(cells)
-    return surface
-
-
 def resized(surface, count):
-    """Return the surface with about `count` triangles."""
+    """Return the surface with about `count` triangles, and with normals."""
     while surface.GetNumberOfPolys() < count:
-        finer = vtk.vtkLoopSubdivisionFilter()
-        finer.SetInputData(surface)
-        finer.Update()
-        surface = finer.GetOutput()
+        surface = through(surface, vtk.vtkLoopSubdivisionFilter())
     coarser = vtk.vtkQuadricDecimation()
-    coarser.SetInputData(surface)
     coarser.SetTargetReduction(1 - count / surface.GetNumberOfPolys())
-    coarser.Update()
     normals = vtk.vtkPolyDataNormals()
-    normals.SetInputData(coarser.GetOutput())
     normals.SplittingOff()
-    normals.Update()
-    return normals.GetOutput()
+    return through(through(surface, coarser), normals)
 
 
 def png():
@@ -78,9 +60,9 @@ def png():
 
 def write_glb(surface, path):
     """Write a textured mesh. The texture is projected from the front and from the back, with a seam between."""
-    points = vtk_to_numpy(surface.GetPoints().GetData()).astype(np.float32)
+    points, triangles = points_and_triangles(surface)
+    points = points.astype(np.float32)
     normals = vtk_to_numpy(surface.GetPointData().GetNormals()).astype(np.float32)
-    triangles = vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
     is_back = normals[triangles].mean(axis=1)[:, 1] > 0
     sides = [triangles[~is_back], triangles[is_back]]
     used = [np.unique(side) for side in sides]
@@ -102,10 +84,7 @@ def write_glb(surface, path):
             "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}], "textures": [{"source": 0}],
             "images": [{"bufferView": 4, "mimeType": "image/png"}], "bufferViews": views, "accessors": accessors,
             "buffers": [{"byteLength": len(buffer)}]}
-    text = json.dumps(file).encode()
-    text += b" " * (-len(text) % 4)
-    path.write_bytes(struct.pack("<4sIIII", b"glTF", 2, 28 + len(text) + len(buffer), len(text), 0x4E4F534A) + text +
-                     struct.pack("<II", len(buffer), 0x004E4942) + buffer)
+    path.write_bytes(glb_bytes(file, buffer))
     return len(triangles)
 
 
@@ -137,7 +116,7 @@ def main():
         for name in CHARACTERS:
             for count, limit in LIMITS.items():
                 path = scratch / f"{pathlib.Path(name).stem}-{count}.glb"
-                triangles = write_glb(resized(read_surface(surfaces[name]), count), path)
+                triangles = write_glb(resized(as_polydata(*read_off(surfaces[name])), count), path)
                 seconds, report = rig(options, path)
                 median = statistics.median(seconds)
                 rows.append([name, triangles, report["counts"]["handles"], report["tetrahedralize"]["method"],

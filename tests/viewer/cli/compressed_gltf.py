@@ -1,4 +1,6 @@
-"""Return glTF files with compressed meshes. The compressed data is not valid, so that the libraries refuse it."""
+"""glTF files with compressed meshes, and what a build without the libraries does with them. The compressed data is not valid,
+so that the libraries refuse it.
+"""
 
 import json
 
@@ -36,3 +38,17 @@ def meshopt_text(is_required=True):
     view = file["bufferViews"][0]
     view["extensions"] = {name: {**view, "byteStride": 12, "count": 3, "mode": "ATTRIBUTES"}}
     return json.dumps(file)
+
+
+def expect_missing_library(folder, name, place, package):
+    """Expect that no verb reads a compressed file, because Bindpose was built without a library. `place` is the first
+    compressed object of the file."""
+    sentence = f"{name} cannot be read: bindpose-importer: {place}: Bindpose was built without {package}"
+    folder.run("rig", name, "-o", "out.glb").is_refused(sentence)
+    folder.run("render", name, "-o", "out.png").is_refused(sentence)
+    folder.run("info", name).is_refused(sentence)
+
+
+def expect_uncompressed_data(folder, name):
+    """Expect that the uncompressed triangle of a file is read."""
+    assert folder.run("info", name, "--report", "-").is_good().report["bounds"] == [0, 1, 0, 1, 0, 0]

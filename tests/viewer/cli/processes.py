@@ -4,7 +4,16 @@ import contextlib
 import os
 import pathlib
 import resource
+import subprocess
 import time
+
+from driver import PROGRAM
+
+
+def start(folder, *words, **more):
+    """Start the program in a folder."""
+    return subprocess.Popen([PROGRAM, *words], cwd=folder.path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                            **more)
 
 
 def children(parent):

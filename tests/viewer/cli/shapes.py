@@ -108,3 +108,11 @@ def png(columns, rows, color):
     lines = b"".join(b"\0" + b"".join(bytes(color(x, y)) for x in range(columns)) for y in range(rows))
     head = struct.pack(">IIBBBBB", columns, rows, 8, 6, 0, 0, 0)
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(lines)) + chunk(b"IEND", b"")
+
+
+def huge_png():
+    """Return a PNG file whose header states 100,000 x 100,000 pixels."""
+    picture = bytearray(png(2, 2, lambda x, y: (0, 0, 0, 255)))
+    picture[16:24] = (100000).to_bytes(4, "big") * 2
+    picture[29:33] = zlib.crc32(picture[12:29]).to_bytes(4, "big")
+    return bytes(picture)

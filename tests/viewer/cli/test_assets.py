@@ -3,7 +3,6 @@
 import base64
 import json
 import struct
-import zlib
 
 import foreign_rig
 import numpy as np
@@ -339,29 +338,21 @@ def test_images_outside_of_the_folder_are_refused(folder, name):
     assert len(GltfFile(folder / "out.glb").json["images"]) == 1
 
 
-def huge_png():
-    """Return a PNG file whose header states 100,000 x 100,000 pixels."""
-    picture = bytearray(shapes.png(2, 2, lambda x, y: (0, 0, 0, 255)))
-    picture[16:24] = (100000).to_bytes(4, "big") * 2
-    picture[29:33] = zlib.crc32(picture[12:29]).to_bytes(4, "big")
-    return bytes(picture)
-
-
 @pytest.mark.parametrize("name, is_embedded", [
     ("bar.glb", True), ("bar.glb", False), ("bar.gltf", True), ("bar.gltf", False), ("bar.obj", False), ("bar.ply", False)])
 def test_pictures_with_a_huge_size_are_refused(folder, name, is_embedded):
-    folder.write("huge.png", huge_png())
+    folder.write("huge.png", shapes.huge_png())
     if is_embedded and name == "bar.glb":
         write_with_image(folder, "bar.gltf", "")
         file = json.loads((folder / "bar.gltf").read_text())
         buffer = base64.b64decode(file["buffers"][0].pop("uri").split(",")[1])
         buffer += b"\0" * (-len(buffer) % 4)
         file["images"] = [{"bufferView": len(file["bufferViews"]), "mimeType": "image/png"}]
-        file["bufferViews"].append({"buffer": 0, "byteOffset": len(buffer), "byteLength": len(huge_png())})
-        file["buffers"][0]["byteLength"] = len(buffer) + len(huge_png())
-        folder.write(name, glb_bytes(file, buffer + huge_png()))
+        file["bufferViews"].append({"buffer": 0, "byteOffset": len(buffer), "byteLength": len(shapes.huge_png())})
+        file["buffers"][0]["byteLength"] = len(buffer) + len(shapes.huge_png())
+        folder.write(name, glb_bytes(file, buffer + shapes.huge_png()))
     else:
-        data = "data:image/png;base64," + base64.b64encode(huge_png()).decode()
+        data = "data:image/png;base64," + base64.b64encode(shapes.huge_png()).decode()
         write_with_image(folder, name, data if is_embedded else "huge.png")
     folder.run("rig", name, "--handles", "auto:2", "--domain", "surface", "-o", "out.glb").is_refused(
         name, "100000 x 100000 pixels")
@@ -369,7 +360,7 @@ def test_pictures_with_a_huge_size_are_refused(folder, name, is_embedded):
 
 def test_an_imported_file_with_a_huge_picture_is_refused(folder):
     write_collada(folder)
-    folder.write("wood.png", huge_png())
+    folder.write("wood.png", shapes.huge_png())
     folder.run("rig", "bar.dae", "--handles", "auto:2", "--domain", "surface", "-o", "out.glb").is_refused(
         "bar.dae", "100000 x 100000 pixels")
 

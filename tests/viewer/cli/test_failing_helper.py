@@ -14,16 +14,11 @@ import time
 import pytest
 import shapes
 from driver import PROGRAM
-from processes import children, limited, runs, stand_in, wait_for_end, wait_for_helper
+from processes import children, limited, runs, stand_in, start, wait_for_end, wait_for_helper
 
 HELPER = pathlib.Path(PROGRAM).parent / "bindpose-mesher"
 pytestmark = pytest.mark.usefixtures("empty_temporary_folder")
 needs_helper = pytest.mark.skipif(not HELPER.exists(), reason="built without bindpose-mesher")
-
-
-def start(folder, *words, **more):
-    return subprocess.Popen([PROGRAM, "tetrahedralize", *words], cwd=folder.path, stdout=subprocess.PIPE,
-                            stderr=subprocess.PIPE, text=True, **more)
 
 
 # ---- The helper ------------------------------------------------------------------------------------
@@ -58,7 +53,7 @@ def test_missing_helper(folder):
 def test_a_helper_killed_once(folder):
     """Kill the first helper process. The program must then succeed with a second one."""
     folder.off("s.off", shapes.sphere(100, 60))
-    process = start(folder, "s.off", "-o", "s.vtu", "--report", "-")
+    process = start(folder, "tetrahedralize", "s.off", "-o", "s.vtu", "--report", "-")
     os.kill(wait_for_helper(process), signal.SIGKILL)
     out, err = process.communicate(timeout=300)
     assert process.returncode == 0, err
@@ -72,7 +67,7 @@ def test_a_helper_killed_again_and_again(folder, method, code):
     one sentence that lists all attempts.
     """
     folder.off("s.off", shapes.sphere(60, 40))
-    process = start(folder, "s.off", "--method", method, "-o", "s.vtu", "--report", "r.json")
+    process = start(folder, "tetrahedralize", "s.off", "--method", method, "-o", "s.vtu", "--report", "r.json")
     stop = threading.Event()
 
     def kill():
@@ -106,7 +101,7 @@ def test_a_helper_killed_again_and_again(folder, method, code):
 def test_a_full_disk(folder, ending, size):
     """Limit the size of files, which has the effect of a full disk."""
     folder.off("s.off", shapes.sphere())
-    process = start(folder, "s.off", "--method", "embed", "-o", f"s.{ending}",
+    process = start(folder, "tetrahedralize", "s.off", "--method", "embed", "-o", f"s.{ending}",
                     preexec_fn=limited(resource.RLIMIT_FSIZE, size))
     _out, err = process.communicate(timeout=300)
     assert process.returncode == 2, err
@@ -118,7 +113,7 @@ def test_a_full_disk(folder, ending, size):
 def test_no_room_for_the_helper(folder):
     """Limit the size of files. The helper's meshes are files in memory, to which the limit also applies."""
     folder.off("s.off", shapes.sphere(60, 40))
-    process = start(folder, "s.off", "--method", "cdt", "-o", "s.vtu",
+    process = start(folder, "tetrahedralize", "s.off", "--method", "cdt", "-o", "s.vtu",
                     preexec_fn=limited(resource.RLIMIT_FSIZE, 10000))
     _out, err = process.communicate(timeout=300)
     assert process.returncode == 5 and "cannot write the temporary mesh for bindpose-mesher" in err, err
@@ -150,7 +145,7 @@ def test_the_memory_limit_of_the_helper(folder):
 def test_little_memory_for_all(folder, mebibytes):
     """Check that with ulimit -v, the program either makes tets or ends with one sentence."""
     folder.off("s.off", shapes.sphere(240, 160))
-    process = start(folder, "s.off", "--method", "embed", "-o", "s.vtu",
+    process = start(folder, "tetrahedralize", "s.off", "--method", "embed", "-o", "s.vtu",
                     preexec_fn=limited(resource.RLIMIT_AS, mebibytes << 20), env={**os.environ, "OPENBLAS_NUM_THREADS": "1"})
     _out, err = process.communicate(timeout=60)
     if "shared librar" in err:
@@ -168,7 +163,7 @@ def test_cancel_kills_the_helper(folder, number):
     folder.off("s.off", shapes.sphere())
     environment = stand_in(folder, "BINDPOSE_MESHER", "exec sleep 60")
     before = sorted(os.listdir(folder.path))
-    process = start(folder, "s.off", "-o", "s.vtu", env={**os.environ, **environment})
+    process = start(folder, "tetrahedralize", "s.off", "-o", "s.vtu", env={**os.environ, **environment})
     helper = wait_for_helper(process)
     process.send_signal(number)
     wait_for_end(helper)  # 20 ms on an idle machine
@@ -184,7 +179,7 @@ def test_no_helper_outlives_the_program(folder, age):
     while the helper works.
     """
     folder.off("s.off", shapes.sphere(400, 240))
-    process = start(folder, "s.off", "-o", "s.vtu")
+    process = start(folder, "tetrahedralize", "s.off", "-o", "s.vtu")
     helper = wait_for_helper(process)
     time.sleep(age)
     assert runs(helper)

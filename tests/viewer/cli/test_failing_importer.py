@@ -7,7 +7,6 @@ import pathlib
 import re
 import resource
 import signal
-import subprocess
 import time
 
 import asset_files
@@ -15,9 +14,8 @@ import compressed_gltf
 import numpy as np
 import pytest
 import shapes
-from driver import PROGRAM
 from gltf_file import GltfFile
-from processes import children, limited, runs, stand_in, wait_for_end, wait_for_helper
+from processes import children, limited, runs, stand_in, start, wait_for_end, wait_for_helper
 
 pytestmark = pytest.mark.usefixtures("empty_temporary_folder")
 
@@ -41,11 +39,6 @@ def files(folder):
     folder.write("walk.bvh", "HIERARCHY\n")
     folder.write("draco.gltf", compressed_gltf.draco_text())
     return folder
-
-
-def start(folder, *words, **more):
-    return subprocess.Popen([PROGRAM, *words], cwd=folder.path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                            **more)
 
 
 # ---- Stand-ins -------------------------------------------------------------------------------------
